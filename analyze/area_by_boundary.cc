@@ -28,7 +28,7 @@ class Grid {
     y0_ = static_cast<std::int64_t>(std::floor(y.lo() / h_)) - 2;
     nx_ = static_cast<std::int64_t>(std::ceil(x.hi() / h_)) + 2 - x0_;
     ny_ = static_cast<std::int64_t>(std::ceil(y.hi() / h_)) + 2 - y0_;
-    from_boundary_.assign(static_cast<std::size_t>(nx_ * ny_), kFar);
+    from_boundary_.assign(nx_ * ny_, kFar);
   }
 
   /// All closed squares that meet the closed rectangle: a quotient by a power of two is exact.
@@ -55,19 +55,19 @@ class Grid {
     std::vector<bool> seen(from_boundary_.size());
     std::vector<Component> result;
     for (std::int64_t start = 0; start < nx_ * ny_; ++start) {
-      if (seen[static_cast<std::size_t>(start)] || depth(start) == 0) continue;
+      if (seen[start] || depth(start) == 0) continue;
       Component c;
       c.deepest = start;
       std::deque<std::int64_t> open{start};
-      seen[static_cast<std::size_t>(start)] = true;
+      seen[start] = true;
       while (!open.empty()) {
         const std::int64_t k = open.front();
         open.pop_front();
         ++c.squares;
         if (depth(k) > depth(c.deepest)) c.deepest = k;
         if (!for_each_neighbour(k, [&](std::int64_t n) {
-              if (seen[static_cast<std::size_t>(n)] || depth(n) == 0) return;
-              seen[static_cast<std::size_t>(n)] = true;
+              if (seen[n] || depth(n) == 0) return;
+              seen[n] = true;
               open.push_back(n);
             }))
           c.outer = true;
@@ -91,10 +91,8 @@ class Grid {
   Interval middle(std::int64_t i) const {
     return {(static_cast<double>(i) + 0.375) * h_, (static_cast<double>(i) + 0.625) * h_};
   }
-  std::uint16_t& at(std::vector<std::uint16_t>& list, std::int64_t i, std::int64_t j) const {
-    return list[static_cast<std::size_t>(j * nx_ + i)];
-  }
-  std::uint16_t depth(std::int64_t k) const { return from_boundary_[static_cast<std::size_t>(k)]; }
+  std::uint16_t& at(std::vector<std::uint16_t>& list, std::int64_t i, std::int64_t j) const { return list[j * nx_ + i]; }
+  std::uint16_t depth(std::int64_t k) const { return from_boundary_[k]; }
 
   // False: the square is on the border of the grid.
   template <class Visit>
@@ -116,7 +114,7 @@ class Grid {
       open.pop_front();
       for_each_neighbour(k, [&](std::int64_t n) {
         if (depth(n) != kFar) return;
-        from_boundary_[static_cast<std::size_t>(n)] = static_cast<std::uint16_t>(std::min(depth(k) + 1, kFar - 1));
+        from_boundary_[n] = static_cast<std::uint16_t>(std::min(depth(k) + 1, kFar - 1));
         open.push_back(n);
       });
     }
@@ -154,7 +152,7 @@ bool has_no_other_ends(const symbolic::Mechanism& model, const System& system, i
       if (cover.boxes.empty() && cover.complete()) continue;
       if (static_cast<int>(j) != x && static_cast<int>(j) != y) return false;
       const Box line = at_end.domain();
-      edges.push_back({line[static_cast<std::size_t>(x)], line[static_cast<std::size_t>(y)]});
+      edges.push_back({line[x], line[y]});
     }
   }
   return true;
@@ -178,14 +176,10 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
   for (const bool fine : {false, true}) {  // first of any size, to know how large the workspace is
     boundary = edges;
     for (const study::Question& part : study::parts_of(question)) {
-      solve::Options search;
-      search.threads = options.threads;
-      search.sigma_length = sigma;
-      search.sigma_angle = kWholeCircle;
+      const solve::Options search{.sigma_length = sigma, .sigma_angle = kWholeCircle, .threads = options.threads};
       const Cover cover = solve::solve(solve::prepare(study::system(part), search, control), control);
       if (!cover.complete()) return std::nullopt;
-      for (const CoverBox& box : cover.boxes)
-        boundary.push_back({box.box[static_cast<std::size_t>(x)], box.box[static_cast<std::size_t>(y)]});
+      for (const CoverBox& box : cover.boxes) boundary.push_back({box.box[x], box.box[y]});
     }
     if (boundary.empty()) return AreaBounds{};
     Box hull = boundary.front();

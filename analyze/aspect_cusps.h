@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "corank/analyze/sign_cells.h"
-#include "corank/solve/control.h"
+#include "corank/analyze/pieces.h"
 #include "corank/study/question.h"
 
-namespace corank::analyze {
+namespace corank::symbolic {
+struct Loci;
+}
 
-struct Pieces;
+namespace corank::analyze {
 
 /// Near a cusp of a locus' image among the locked coordinates three configurations come together; the locus divides C-space
 /// there in two sides. The outer two of the three lie on one of them, where a path about the cusp joins them, the third on
@@ -35,18 +36,12 @@ struct AspectCusps {
   std::optional<int> euler_characteristic;
 };
 
-/// The factors of a determinant, and which of a cells' functions they are.
-struct LocusFactors {
-  bool forward = true;
-  std::vector<symbolic::Expression> factors{};
-  std::vector<std::size_t> functions{};
-};
-
-/// Of pieces that are exact. The cusps are searched for (symbolic/cusp_system.h). Theorem: let one function g of the locus
-/// alone be 0 at the cusp. All points of C-space near it lie in the cells that its box meets; where all parts of these with
-/// the signs of one side are of one piece, that side is of it. Which side is which says the sign of symbolic::cusp_sides().
-AspectCusps aspect_cusps(const study::Question& question, const std::vector<LocusFactors>& loci, SignCells& cells,
-                         const Pieces& pieces, int threads, solve::Control& control);
+/// Of pieces that are exact, of cells whose functions are all the loci's factors. The cusps are searched for
+/// (symbolic/cusp_system.h). Theorem: let one function g of the locus alone be 0 at the cusp. All points of C-space near it
+/// lie in the cells that its box meets; where all parts of these with the signs of one side are of one piece, that side is
+/// of it. Which side is which says the sign of symbolic::cusp_sides().
+AspectCusps aspect_cusps(const study::Question& question, const symbolic::Loci& loci, SignCells& cells, const Pieces& pieces,
+                         int threads, solve::Control& control);
 
 /// Looks at the parity of their numbers, where C-space, of two dimensions, comes to no end, and its Euler characteristic is
 /// found with few boxes. A locus whose number has the other one is no longer known as a whole.

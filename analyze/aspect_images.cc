@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "corank/analyze/aspects.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
@@ -19,7 +19,7 @@ class SquareGrid {
   struct Square {
     int i, j;
   };
-  std::size_t index(const Square& s) const { return static_cast<std::size_t>(s.i * rows_ + s.j); }
+  std::size_t index(const Square& s) const { return s.i * rows_ + s.j; }
   Interval side_x(int i) const { return Interval(line(x_, i), line(x_, i + 1)); }
   Interval side_y(int j) const { return Interval(line(y_, j), line(y_, j + 1)); }
 
@@ -64,18 +64,16 @@ class SquareGrid {
 
 class Imager {
  public:
-  Imager(SignCells& cells, int x, int y, const SquareGrid& grid)
-      : cells_(cells), x_(static_cast<std::size_t>(x)), y_(static_cast<std::size_t>(y)), grid_(grid) {}
+  Imager(SignCells& cells, int x, int y, const SquareGrid& grid) : cells_(cells), x_(x), y_(y), grid_(grid) {}
 
   // Marks the squares that a part may touch, and those that it is proven to cover.
   void add(const SignCell& cell, const Box& sides, const std::vector<int>& signs, int depth, std::vector<bool>& touched,
            std::vector<bool>& covered) {
     const SignCell here = cells_.cell_over(cell, sides);
-    const int all = SignCells::holds(here, signs);
+    const int all = certify::SignCellTest::holds(here, signs);
     if (all < 0) return;
-    const std::vector<int>& frees = cells_.free(cell);
     if (all == 0 && depth > 0) {
-      const auto f = static_cast<std::size_t>(frees[static_cast<std::size_t>(depth) % 2]);
+      const int f = cell.free[depth % 2];
       for (const bool upper : {false, true}) {
         Box half = here.sides;
         half[f] = upper ? Interval(half[f].mid(), half[f].hi()) : Interval(half[f].lo(), half[f].mid());
@@ -112,20 +110,16 @@ PieceImages images(SignCells& cells, const Pieces& pieces, int x, int y, int row
   const std::size_t n = pieces.representatives.size();
   PieceImages result;
   if (cells.cells().empty()) return result;
-  Interval range_x = cells.cells().front().sides[static_cast<std::size_t>(x)];
-  Interval range_y = cells.cells().front().sides[static_cast<std::size_t>(y)];
-  for (const SignCell& cell : cells.cells()) {
-    range_x = Interval::hull(range_x, cell.sides[static_cast<std::size_t>(x)]);
-    range_y = Interval::hull(range_y, cell.sides[static_cast<std::size_t>(y)]);
-  }
-  const SquareGrid grid(range_x, range_y, rows);
+  Box hull = cells.cells().front().sides;
+  for (const SignCell& cell : cells.cells()) include(hull, cell.sides);
+  const SquareGrid grid(hull[x], hull[y], rows);
   Imager imager(cells, x, y, grid);
-  const std::vector<bool> none(static_cast<std::size_t>(rows * rows), false);
+  const std::vector<bool> none(rows * rows, false);
   std::vector<std::vector<bool>> touched(n, none), covered(n, none);
   for (const Pieces::Part& part : pieces.parts) {
     if (control.ended()) return {};
     const SignCell& cell = cells.cells()[part.cell];
-    const auto p = static_cast<std::size_t>(part.piece);
+    const std::size_t p = part.piece;
     imager.add(cell, cell.sides, part.signs, kDepth, touched[p], covered[p]);
   }
   const auto both = [](const std::vector<bool>& a, const std::vector<bool>& b) {

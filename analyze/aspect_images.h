@@ -1,15 +1,9 @@
 // What the pieces of a set cover in the plane of two lengths: areas in bounds, and which of them lie over one another.
 #pragma once
 
-#include <optional>
-#include <vector>
-
-#include "corank/analyze/sign_cells.h"
-#include "corank/solve/control.h"
+#include "corank/analyze/pieces.h"
 
 namespace corank::analyze {
-
-struct Pieces;
 
 struct PieceImages {
   std::vector<Interval> areas;  ///< of each piece's image, in the order of Pieces::representatives

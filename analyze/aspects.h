@@ -10,46 +10,16 @@
 
 #include <array>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "corank/analyze/aspect_cusps.h"
 #include "corank/analyze/aspect_images.h"
 #include "corank/analyze/aspects_drawing.h"
-#include "corank/analyze/sign_cells.h"
-#include "corank/core/pieces.h"
-#include "corank/study/question.h"
 
 namespace corank::result {
 struct PiecesFile;
 }
 
 namespace corank::analyze {
-
-struct Pieces {
-  int at_least = 0;
-  std::optional<int> at_most;
-  /// Of each piece known to be there a box with a solution of it; of pieces not known to differ one box each.
-  std::vector<Box> representatives;
-  std::vector<std::vector<int>> signs;  ///< of the factors in each representative
-  std::vector<std::vector<int>> free;   ///< variables that may be held at its middle to find it
-  struct Part {
-    std::size_t cell;
-    std::vector<int> signs;  ///< of all functions, the limits among them
-    int piece;               ///< index of its representative
-  };
-  std::vector<Part> parts;  ///< of the cells, which make the pieces
-  std::size_t cells = 0, unresolved = 0;
-  std::string reason;  ///< why the bounds are apart; empty where they are not
-  PieceProof proof;    ///< of at_most, for others to check
-
-  bool exact() const { return at_most && *at_most == at_least; }
-};
-
-/// The pieces of the cells' set without the zeros of their functions. at_most: the classes of parts of cells that are not
-/// empty, joined where a solution in two parts is proven; nothing where some part may hide another piece. at_least: those
-/// classes, joined where cells touch and have parts of the same signs.
-Pieces pieces(SignCells& cells, solve::Control& control);
 
 struct Aspects {
   Pieces aspects, assembly_modes, working_modes;
@@ -63,7 +33,7 @@ struct Aspects {
   std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
   std::optional<AspectCusps> cusps;     ///< and the aspects about them, where AspectsOptions::cusps asks for them
   std::shared_ptr<const Cover> cover;   ///< of C-space with its proof, where AspectsOptions::certificate asks for it
-  std::vector<int> places;              ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places.h)
+  std::vector<int> places;              ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places)
 };
 
 struct AspectsOptions {

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "corank/analyze/aspects.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
@@ -36,10 +35,9 @@ class Drawer {
             std::vector<PieceDrawing::Polygon>& out) {
     if (ended_()) return;
     const SignCell here = cells_.cell_over(cell, sides);
-    const int all = SignCells::holds(here, signs);
+    const int all = certify::SignCellTest::holds(here, signs);
     if (all < 0) return;
-    const std::vector<int>& frees = cells_.free(cell);
-    const auto a = static_cast<std::size_t>(frees[0]), b = static_cast<std::size_t>(frees[1]);
+    const int a = cell.free[0], b = cell.free[1];
     if (all == 0 && depth > 0) {
       for (const int quarter : {0, 1, 2, 3}) {
         Box part = here.sides;
@@ -56,7 +54,7 @@ class Drawer {
       at[b] = Interval(point(at[b], q));
       polygon.push_back(corner(here, cells_.solution_over(here, std::move(at))));
     }
-    for (const int k : here.mixed) clip(polygon, static_cast<std::size_t>(k), signs[static_cast<std::size_t>(k)]);
+    for (const int k : here.mixed) clip(polygon, k, signs[k]);
     if (polygon.size() > 2) out.push_back(values(polygon));
   }
 
@@ -78,7 +76,7 @@ class Drawer {
   }
 
   // Keeps where s·g > 0 (Sutherland and Hodgman).
-  static void clip(std::vector<Corner>& polygon, std::size_t k, int sign) {
+  static void clip(std::vector<Corner>& polygon, int k, int sign) {
     std::vector<Corner> result;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Corner &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
@@ -99,10 +97,10 @@ class Drawer {
     for (const Corner& corner : polygon) {
       std::vector<double>& point = result.emplace_back();
       for (std::size_t c = 0; c < coordinates_.size(); ++c) {
-        const auto x = static_cast<std::size_t>(coordinates_[c].x);
+        const std::size_t x = coordinates_[c].x;
         double value = corner.x[x];
         if (is_angle(c)) {
-          value = std::atan2(corner.x[static_cast<std::size_t>(coordinates_[c].y)], value);
+          value = std::atan2(corner.x[coordinates_[c].y], value);
           const double first = result.size() == 1 ? value : result.front()[c];
           value -= 2 * std::numbers::pi * std::round((value - first) / (2 * std::numbers::pi));
         }
@@ -132,7 +130,7 @@ std::optional<PieceDrawing> draw(SignCells& cells, const Pieces& pieces, const s
   const UpwardRounding rounding;
   for (const Pieces::Part& part : pieces.parts) {
     const SignCell& cell = cells.cells()[part.cell];
-    drawer.draw(cell, cell.sides, part.signs, kDepth, result.pieces[static_cast<std::size_t>(part.piece)]);
+    drawer.draw(cell, cell.sides, part.signs, kDepth, result.pieces[part.piece]);
   }
   if (ended()) return std::nullopt;
   return result;

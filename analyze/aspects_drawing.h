@@ -1,16 +1,10 @@
 // Pieces of a set of dimension 2 as polygons in some of its coordinates, to be looked at: nothing is proven by them.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "corank/analyze/sign_cells.h"
+#include "corank/analyze/pieces.h"
 #include "corank/core/ended.h"
 
 namespace corank::analyze {
-
-struct Pieces;
 
 struct PieceDrawing {
   /// Points of one value for each coordinate; an angle's may be beyond its range by less than a turn.

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "corank/analyze/clearance.h"
 #include "corank/certify/angle.h"
 #include "corank/core/check.h"
 #include "corank/result/pieces_file.h"
@@ -15,13 +16,8 @@
 namespace corank::analyze {
 namespace {
 
-struct Value {
-  std::string name;
-  Interval value;
-};
-
-std::vector<Value> values(const System& system, const Box& box) {
-  std::vector<Value> result;
+std::vector<CoordinateValue> values(const System& system, const Box& box) {
+  std::vector<CoordinateValue> result;
   for (std::size_t j = 0; j < system.variables.size(); ++j)
     if (system.variables[j].kind == VariableKind::length) result.push_back({system.variables[j].name, box[j]});
   for (const Angle& a : system.angles)
@@ -101,7 +97,7 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
     claims.at_most = lists[k]->at_most;
     if (claims.at_most) claims.proof = lists[k]->proof;
     // Of pieces that are not known to differ there may be more.
-    for (std::size_t i = 0; i < static_cast<std::size_t>(claims.at_least); ++i)
+    for (int i = 0; i < claims.at_least; ++i)
       claims.members.push_back({lists[k]->representatives[i], lists[k]->free[i], lists[k]->signs[i],
                                 k == 0 ? a.determinant_signs[i] : std::array<int, 2>{}});
   }
@@ -133,7 +129,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   const std::size_t known = a.aspects.representatives.size();
   for (std::size_t k = 0; k < std::min(known, kMostShown); ++k) {
     text += fmt::format("  {:>3}", k + 1);
-    for (const Value& v : values(a.system, a.aspects.representatives[k]))
+    for (const CoordinateValue& v : values(a.system, a.aspects.representatives[k]))
       text += fmt::format("  {} {:.4f}", v.name, v.value.mid());
     text += area_words(a, k) + "\n";
   }
@@ -162,7 +158,7 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
     };
     entry["det_L_y"] = sign(0);
     entry["det_L_z"] = sign(1);
-    for (const Value& v : values(a.system, a.aspects.representatives[k]))
+    for (const CoordinateValue& v : values(a.system, a.aspects.representatives[k]))
       entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
     if (a.images && k < a.images->areas.size()) {
       entry["area"] = {{"lo", a.images->areas[k].lo()}, {"hi", a.images->areas[k].hi()}};
@@ -176,7 +172,8 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
     if (a.cusps->looked_for[0] || a.cusps->looked_for[1]) json["cusps"] = Json::array();
     for (const AspectCusp& c : a.cusps->list) {
       Json entry = {{"locus", c.forward ? "forward" : "inverse"}, {"values", Json::object()}};
-      for (const Value& v : values(a.system, c.at)) entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+      for (const CoordinateValue& v : values(a.system, c.at))
+        entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
       entry["around"] = or_null(c.around);
       entry["between"] = or_null(c.between);
       json["cusps"].push_back(entry);

@@ -22,8 +22,6 @@ using symbolic::Expression;
 using symbolic::Mechanism;
 using symbolic::ModelError;
 
-Expression square(const Expression& x) { return pow(x, 2); }
-
 class BallMaker {
  public:
   BallMaker(const study::Question& question, const BallOptions& options) : question_(question), options_(options) {
@@ -36,7 +34,20 @@ class BallMaker {
 
  private:
   ModelError error(const std::string& problem, const std::string& expectation) const {
-    return {{model_.name(), 0, 0}, problem, expectation};
+    return question_error(question_, problem, expectation);
+  }
+  bool is_in_ball(const std::string& name) const {
+    return std::find(options_.in.begin(), options_.in.end(), name) != options_.in.end();
+  }
+  bool is_output_angle(const std::string& name) const {
+    const std::vector<std::string>& outputs = question_.model.outputs();
+    return coordinate(name).kind == CoordinateKind::angle &&
+           std::find(outputs.begin(), outputs.end(), name) != outputs.end();
+  }
+  const NamedRange* given_range(const std::string& name) const {
+    const auto given =
+        std::find_if(options_.ranges.begin(), options_.ranges.end(), [&](const NamedRange& r) { return r.name == name; });
+    return given == options_.ranges.end() ? nullptr : &*given;
   }
   const Coordinate& coordinate(const std::string& name) const;
   double value(const Expression& e) const;
@@ -48,6 +59,8 @@ class BallMaker {
   double turned(const Coordinate& c, double at) const;
   // Refuses a value outside the declared range.
   void check_value(const NamedValue& v) const;
+  // Keeps an angle in its declared range by an inequality.
+  static void keep_in_range(Mechanism& model, const Coordinate& c);
   // Keeps the coordinate in [lower, upper] and in its declared range.
   void narrow(Mechanism& model, const Coordinate& c, const Expression& lower, const Expression& upper) const;
   void add_center(const std::string& name);
@@ -67,11 +80,8 @@ class BallMaker {
 
 const Coordinate& BallMaker::coordinate(const std::string& name) const {
   const int index = question_.model.find_coordinate(name);
-  if (index >= 0) return question_.model.coordinates()[static_cast<std::size_t>(index)];
-  std::string known;
-  for (const Coordinate& c : question_.model.coordinates())
-    if (!c.auxiliary) known += (known.empty() ? "" : ", ") + c.name;
-  throw error("there is no coordinate '" + name + "'", "one of " + known);
+  if (index >= 0) return question_.model.coordinates()[index];
+  throw unknown_coordinate(question_, name);
 }
 
 double BallMaker::value(const Expression& e) const {
@@ -102,6 +112,11 @@ void BallMaker::check_value(const NamedValue& v) const {
     throw error(fmt::format("{} = {:g} is outside its range [{:g}, {:g}]", v.name, at, lower, upper), "a value in it");
 }
 
+void BallMaker::keep_in_range(Mechanism& model, const Coordinate& c) {
+  const Expression angle = Expression::symbol(c.name), middle = (c.lower + c.upper) / 2, half = (c.upper - c.lower) / 2;
+  model.constrain(cos(angle - middle) >= cos(half), c.where, "range of " + c.name);
+}
+
 void BallMaker::narrow(Mechanism& model, const Coordinate& c, const Expression& lower, const Expression& upper) const {
   const double lo = value(lower), hi = value(upper);
   if (lo > hi)
@@ -118,8 +133,7 @@ void BallMaker::narrow(Mechanism& model, const Coordinate& c, const Expression& 
   } else {
     // Two ranges of an angle may meet in two pieces: one of them is an inequality.
     model.set_range(c.name, lower, upper);
-    const Expression angle = Expression::symbol(c.name), middle = (c.lower + c.upper) / 2, half = (c.upper - c.lower) / 2;
-    if (value(c.upper) > value(c.lower)) model.constrain(cos(angle - middle) >= cos(half), c.where, "range of " + c.name);
+    if (value(c.upper) > value(c.lower)) keep_in_range(model, c);
   }
 }
 
@@ -134,9 +148,8 @@ void BallMaker::add_center(const std::string& name) {
   const Expression& at = value_at(name);
   ball_.center.push_back({name, at});
   const double a = value(at);
-  const auto given =
-      std::find_if(options_.ranges.begin(), options_.ranges.end(), [&](const NamedRange& r) { return r.name == name; });
-  if (given != options_.ranges.end()) {
+  const NamedRange* const given = given_range(name);
+  if (given) {
     const double below = a - value(given->lower), above = value(given->upper) - a;
     if (below < 0 || above < 0)
       throw error(fmt::format("{} = {:g} is outside the range that is given for it", name, a), "a value in it");
@@ -149,18 +162,14 @@ void BallMaker::add_center(const std::string& name) {
     meet(inside - value(c.lower), "lower", what);
     meet(value(c.upper) - inside, "upper", what);
   }
+  center_model_.set_range(name, at, at);
   if (c.kind == CoordinateKind::length) {
-    center_model_.set_range(name, at, at);
-    if (given != options_.ranges.end()) narrow(model_, c, given->lower, given->upper);
+    if (given) narrow(model_, c, given->lower, given->upper);
     return;
   }
-  center_model_.set_range(name, at, at);
   const Expression half_turn = symbolic::pi();
-  const bool is_given = given != options_.ranges.end();
-  model_.unroll(name, is_given ? given->lower : at - half_turn, is_given ? given->upper : at + half_turn);
-  if (is_full_circle(c)) return;
-  const Expression angle = Expression::symbol(name), middle = (c.lower + c.upper) / 2, half = (c.upper - c.lower) / 2;
-  model_.constrain(cos(angle - middle) >= cos(half), c.where, "range of " + name);
+  model_.unroll(name, given ? given->lower : at - half_turn, given ? given->upper : at + half_turn);
+  if (!is_full_circle(c)) keep_in_range(model_, c);
 }
 
 Rotation BallMaker::orientation() const {
@@ -201,12 +210,8 @@ void BallMaker::limit_orientation() {
   if (value(alpha) < 0) throw error("the range of the orientation is negative", "an angle, such as 15deg");
   bool used = options_.orientation.has_value();
   for (const NamedValue& v : options_.at) {
-    const Coordinate& c = coordinate(v.name);
-    const auto& outputs = question_.model.outputs();
-    const bool in_ball = std::find(options_.in.begin(), options_.in.end(), v.name) != options_.in.end();
-    if (in_ball || c.kind != CoordinateKind::angle || std::find(outputs.begin(), outputs.end(), v.name) == outputs.end())
-      continue;
-    narrow(model_, c, v.value - alpha, v.value + alpha);
+    if (is_in_ball(v.name) || !is_output_angle(v.name)) continue;
+    narrow(model_, coordinate(v.name), v.value - alpha, v.value + alpha);
     used = true;
   }
   if (!used)
@@ -240,21 +245,13 @@ Ball BallMaker::make() {
     add_center(name);
   }
   for (const NamedRange& r : options_.ranges)
-    if (std::find(options_.in.begin(), options_.in.end(), r.name) == options_.in.end()) {
+    if (!is_in_ball(r.name)) {
       narrow(model_, coordinate(r.name), r.lower, r.upper);
       narrow(center_model_, coordinate(r.name), r.lower, r.upper);
     }
   for (const NamedValue& v : options_.at) {
-    const auto has = [&](const auto& list, const auto& name_of) {
-      return std::any_of(list.begin(), list.end(), [&](const auto& item) { return name_of(item) == v.name; });
-    };
-    if (has(options_.in, [](const std::string& s) { return s; }) ||
-        has(options_.ranges, [](const NamedRange& r) { return r.name; }))
-      continue;
-    const auto& outputs = question_.model.outputs();
-    const bool stays_near = options_.orientation_range && coordinate(v.name).kind == CoordinateKind::angle &&
-                            std::find(outputs.begin(), outputs.end(), v.name) != outputs.end();
-    if (!stays_near) model_.set_range(v.name, v.value, v.value);
+    if (is_in_ball(v.name) || given_range(v.name)) continue;
+    if (!options_.orientation_range || !is_output_angle(v.name)) model_.set_range(v.name, v.value, v.value);
     center_model_.set_range(v.name, v.value, v.value);
   }
   limit_orientation();
@@ -270,6 +267,25 @@ Ball BallMaker::make() {
 
 }  // namespace
 
+ModelError question_error(const study::Question& question, const std::string& problem, const std::string& expectation) {
+  return {{question.model.name(), 0, 0}, problem, expectation};
+}
+
+ModelError unknown_coordinate(const study::Question& question, const std::string& name) {
+  std::string known;
+  for (const Coordinate& c : question.model.coordinates())
+    if (!c.auxiliary) known += (known.empty() ? "" : ", ") + c.name;
+  return question_error(question, "there is no coordinate '" + name + "'", "one of " + known);
+}
+
+std::string Ball::set_name() const { return symbolic::definition(question.set).name; }
+
+std::vector<std::string> Ball::names() const {
+  std::vector<std::string> result;
+  for (const NamedValue& c : center) result.push_back(c.name);
+  return result;
+}
+
 std::vector<Expression> Ball::differences() const {
   std::vector<Expression> result;
   for (const NamedValue& c : center) result.push_back(Expression::symbol(c.name) - c.value);
@@ -278,9 +294,9 @@ std::vector<Expression> Ball::differences() const {
 
 Mechanism Ball::within(const Expression& radius) const {
   std::vector<Expression> squares;
-  for (const Expression& d : differences()) squares.push_back(square(d));
+  for (const Expression& d : differences()) squares.push_back(pow(d, 2));
   Mechanism model = question.model;
-  model.constrain(Expression::node(Expression::Kind::sum, squares) <= square(radius), {}, "the ball");
+  model.constrain(Expression::node(Expression::Kind::sum, squares) <= pow(radius, 2), {}, "the ball");
   model.set_source_text(symbolic::to_model(model));
   return model;
 }

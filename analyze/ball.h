@@ -23,6 +23,11 @@ struct NamedRange {
   std::string name;
   symbolic::Expression lower, upper;
 };
+/// Of what was asked about a model, without a place in its text.
+symbolic::ModelError question_error(const study::Question& question, const std::string& problem,
+                                    const std::string& expectation);
+symbolic::ModelError unknown_coordinate(const study::Question& question, const std::string& name);
+
 /// Row by row, in constants or coordinates.
 using Rotation = std::array<std::array<symbolic::Expression, 3>, 3>;
 
@@ -44,6 +49,8 @@ struct Ball {
   study::Question question;
   std::vector<NamedValue> center;  ///< of the ball's coordinates, in the order of BallOptions::in
 
+  std::string set_name() const;
+  std::vector<std::string> names() const;  ///< of the ball's coordinates
   /// x_i − a_i.
   std::vector<symbolic::Expression> differences() const;
   /// The same model with the inequality that the distance is `radius` at most.

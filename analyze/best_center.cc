@@ -97,7 +97,7 @@ class Search {
   void divide(Cell cell) {
     const auto widest = std::max_element(cell.x.begin(), cell.x.end(),
                                          [](const Interval& a, const Interval& b) { return a.width() < b.width(); });
-    const auto j = static_cast<std::size_t>(widest - cell.x.begin());
+    const std::size_t j = widest - cell.x.begin();
     const Interval side = cell.x[j];
     const double where = side.mid();
     if (side.width() <= kFinest * field_.region()[j].width() || !(side.lo() < where && where < side.hi())) {

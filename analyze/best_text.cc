@@ -4,20 +4,17 @@
 #include <nlohmann/json.hpp>
 
 #include "corank/analyze/best_center.h"
-#include "corank/analyze/clearance_words.h"
 
 namespace corank::analyze {
 
 using Json = nlohmann::ordered_json;
 
 std::string to_table(const Best& b) {
-  std::string in, region;
-  for (const NamedValue& c : b.ball.center) in += (in.empty() ? "" : ", ") + c.name;
+  std::vector<std::string> region;
   for (std::size_t k = 0; k < b.names.size(); ++k)
-    region +=
-        fmt::format("{}{} in [{:.6g}, {:.6g}]", region.empty() ? "" : ", ", b.names[k], b.region[k].lo(), b.region[k].hi());
+    region.push_back(fmt::format("{} in [{:.6g}, {:.6g}]", b.names[k], b.region[k].lo(), b.region[k].hi()));
   std::string text = fmt::format("{}, {}: the largest ball in {} with its centre in {}\n", b.ball.question.model.name(),
-                                 set_of(b.ball), in, region);
+                                 b.ball.set_name(), fmt::join(b.ball.names(), ", "), fmt::join(region, ", "));
   const std::string what = b.ball.question.set ? "singularity" : "solution";
   if (b.empty) {
     text += fmt::format("it is proven that there is no {} in the ranges\n", what);
@@ -37,13 +34,12 @@ std::string to_table(const Best& b) {
 
 std::string to_json(const Best& b) {
   Json json = {{"model", b.ball.question.model.name()},
-               {"set", set_of(b.ball)},
-               {"in", Json::array()},
+               {"set", b.ball.set_name()},
+               {"in", b.ball.names()},
                {"region", Json::object()},
                {"radius", nullptr},
                {"centre", nullptr},
                {"nearest", nullptr}};
-  for (const NamedValue& c : b.ball.center) json["in"].push_back(c.name);
   for (std::size_t k = 0; k < b.names.size(); ++k) json["region"][b.names[k]] = {b.region[k].lo(), b.region[k].hi()};
   json["radius"] = {{"lo", b.lower}, {"hi", b.upper ? Json(*b.upper) : Json(nullptr)}};
   if (!b.center.empty()) json["centre"] = Json::object();

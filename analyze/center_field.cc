@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "corank/analyze/components.h"
 #include "corank/certify/polynomial_algebra.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
@@ -16,25 +18,18 @@
 namespace corank::analyze {
 namespace {
 
-constexpr double kSeconds = 3;            // for the question whether there is a configuration
-constexpr std::uint64_t kBoxes = 20'000;  // likewise
-
+constexpr std::uint64_t kBoxes = 20'000;  // for the question whether there is a configuration
 constexpr std::uint64_t kPatience = 256;  // boxes: most searches that only have to exclude end before
 
 using symbolic::Coordinate;
 using symbolic::Expression;
-using symbolic::ModelError;
-
-ModelError error(const study::Question& question, const std::string& problem, const std::string& expectation) {
-  return {{question.model.name(), 0, 0}, problem, expectation};
-}
 
 const Coordinate& length(const study::Question& question, const std::string& name) {
   const int index = question.model.find_coordinate(name);
-  if (index < 0) throw error(question, "there is no coordinate '" + name + "'", "one of the model's");
-  const Coordinate& c = question.model.coordinates()[static_cast<std::size_t>(index)];
+  if (index < 0) throw question_error(question, "there is no coordinate '" + name + "'", "one of the model's");
+  const Coordinate& c = question.model.coordinates()[index];
   if (c.kind != symbolic::CoordinateKind::length)
-    throw error(question, "'" + name + "' is an angle", "lengths as the coordinates in which the centre moves");
+    throw question_error(question, "'" + name + "' is an angle", "lengths as the coordinates in which the centre moves");
   return c;
 }
 
@@ -49,8 +44,8 @@ Interval interval(const study::Question& question, const NamedRange& range) {
     upper = std::min(upper, symbolic::evaluate(c.upper, constants));
   }
   if (!std::isfinite(lower) || !std::isfinite(upper) || !(lower <= upper))
-    throw error(question, fmt::format("the region of '{}' is empty or not bounded", range.name),
-                "a lower and an upper end within the model's range");
+    throw question_error(question, fmt::format("the region of '{}' is empty or not bounded", range.name),
+                         "a lower and an upper end within the model's range");
   return {lower, upper};
 }
 
@@ -83,11 +78,11 @@ CenterField::CenterField(const study::Question& question, BallOptions ball, cons
     : search_(search), control_(control) {
   for (const NamedRange& range : region) {
     if (std::find(names_.begin(), names_.end(), range.name) != names_.end())
-      throw error(question, "'" + range.name + "' is twice in the region", "each once");
+      throw question_error(question, "'" + range.name + "' is twice in the region", "each once");
     if (!ball.in.empty() && std::find(ball.in.begin(), ball.in.end(), range.name) == ball.in.end())
-      throw error(question, "'" + range.name + "' is not in the ball", "coordinates of the ball, as the centre's");
+      throw question_error(question, "'" + range.name + "' is not in the ball", "coordinates of the ball, as the centre's");
     if (std::any_of(ball.at.begin(), ball.at.end(), [&](const NamedValue& v) { return v.name == range.name; }))
-      throw error(question, "'" + range.name + "' has a value and a region", "one of them");
+      throw question_error(question, "'" + range.name + "' has a value and a region", "one of them");
     region_.push_back(interval(question, range));
     names_.push_back(range.name);
   }
@@ -108,7 +103,7 @@ Nearest CenterField::distance(const std::vector<double>& center, const NearestOp
     const UpwardRounding rounding;
     Interval squares;
     for (const Polynomial& d : differences) squares += square(certify::evaluate(d, singularity.box));
-    return squares.hi() > 0 ? square_root(Interval(squares.hi()))->hi() : 0;
+    return root_above(squares.hi());
   };
   Nearest best;
   for (const Nearest& singularity : known_)
@@ -139,34 +134,22 @@ Nearest CenterField::distance(const std::vector<double>& center, const NearestOp
 CenterField::Configurations CenterField::configurations(std::span<const Interval> centers) const {
   Configurations result;
   if (!assembled_) {
-    result.proven = true;
-    for (const Interval& side : centers) result.near.push_back(side.mid());
-    return result;
+    return {.proven = true, .near = midpoint(centers)};
   }
   System system = *assembled_;
-  std::vector<std::size_t> places;
+  std::vector<int> places;
   for (std::size_t k = 0; k < names_.size(); ++k) {
-    const auto at = std::find_if(system.variables.begin(), system.variables.end(),
-                                 [&](const Variable& v) { return v.name == names_[k]; });
-    CORANK_CHECK(at != system.variables.end());
-    at->lower = ExactNumber::dyadic(centers[k].lo()), at->upper = ExactNumber::dyadic(centers[k].hi());
-    at->domain = centers[k];
-    places.push_back(static_cast<std::size_t>(at - system.variables.begin()));
+    places.push_back(system.find(names_[k]));
+    Variable& v = system.variables.at(places[k]);
+    v.lower = ExactNumber::dyadic(centers[k].lo()), v.upper = ExactNumber::dyadic(centers[k].hi());
+    v.domain = centers[k];
   }
-  solve::Options options;
-  options.max_solutions = 1;
-  options.threads = search_.threads;
-  solve::Control own(control_.rest(kSeconds, kBoxes));
-  const Cover cover = solve::solve(solve::prepare(std::move(system), options, own), own);
+  const Cover cover = search_briefly(std::move(system), 1, kBoxes, search_.threads, control_);
   result.excluded = cover.complete() && cover.boxes.empty();
-  for (const CoverBox& box : cover.boxes) {
-    if (box.verdict != Verdict::regular && box.verdict != Verdict::isolated && box.verdict != Verdict::exact) continue;
-    result.proven = true;
-    result.near.clear();
-    for (std::size_t k = 0; k < places.size(); ++k)
-      result.near.push_back(std::clamp(box.box[places[k]].mid(), centers[k].lo(), centers[k].hi()));
-    break;
-  }
+  const auto box = std::find_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) { return is_proven(b.verdict); });
+  result.proven = box != cover.boxes.end();
+  for (std::size_t k = 0; result.proven && k < places.size(); ++k)
+    result.near.push_back(std::clamp(box->box[places[k]].mid(), centers[k].lo(), centers[k].hi()));
   return result;
 }
 
@@ -174,7 +157,7 @@ double reach(std::span<const Interval> box, const std::vector<double>& center) {
   const UpwardRounding rounding;
   Interval squares;
   for (std::size_t k = 0; k < center.size(); ++k) squares += square(box[k] - Interval(center[k]));
-  return squares.hi() > 0 ? square_root(Interval(squares.hi()))->hi() : 0;
+  return root_above(squares.hi());
 }
 
 Box bounded_region(const study::Question& question, const std::vector<NamedRange>& region) {
@@ -187,7 +170,8 @@ std::vector<NamedRange> declared_ranges(const study::Question& question, const s
   std::vector<NamedRange> ranges;
   for (const std::string& name : names) {
     const Coordinate& c = length(question, name);
-    if (!c.has_range) throw error(question, "'" + name + "' has no range", "one with it, as in --map " + name + "=[0,1],…");
+    if (!c.has_range)
+      throw question_error(question, "'" + name + "' has no range", "one with it, as in --map " + name + "=[0,1],…");
     ranges.push_back({name, c.lower, c.upper});
   }
   return ranges;

@@ -8,6 +8,7 @@
 #include "corank/core/rounding.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/verification.h"
+#include "corank/solve/problem.h"
 #include "corank/solve/propagation.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/model_file.h"
@@ -56,32 +57,25 @@ std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::C
   result.system_text = symbolic::to_cuik(system);
   const solve::Prepared prepared = solve::prepare(system, {}, control);
   const certify::Reduction& reduction = prepared.reduction;
-  std::vector<Polynomial> values;
-  for (const auto& definition : reduction.definitions) values.push_back(definition.value);
 
   const UpwardRounding rounding;
-  certify::CompiledSystem compiled(reduction.system, values);
+  certify::CompiledSystem compiled(reduction.system, solve::values_of(reduction));
   compiled.set_scales(solve::typical_sizes(compiled, reduction.system.domain()).variables);
   std::vector<double> point;
-  for (const int v : reduction.kept) point.push_back(clearance.nearest.box.at(static_cast<std::size_t>(v)).mid());
+  for (const int v : reduction.kept) point.push_back(clearance.nearest.box.at(v).mid());
   solve::PreconditionerFactory preconditioners(compiled);
   certify::NewtonWorkspace workspace;
   const auto witness = prove_near(compiled, certify::DomainTest(reduction.system), point, preconditioners, workspace);
   if (!witness) return std::nullopt;
 
-  const auto lifted = [&](Box sides) {
-    const Box x = sides;
-    for (int k = 0; k < compiled.values(); ++k) sides.push_back(compiled.evaluate(compiled.value_row(k), x));
-    return reduction.lift(sides);
-  };
   CoverBox box;
-  box.box = lifted(witness->sheet.image);
-  for (const int j : witness->free) box.free.push_back(reduction.kept[static_cast<std::size_t>(j)]);
+  box.box = lifted(compiled, reduction, witness->sheet.image);
+  for (const int j : witness->free) box.free.push_back(reduction.kept[j]);
   box.verdict = box.free.empty() ? Verdict::isolated : Verdict::regular;
   box.region = 0;
   result.cover.sigma = result.options.sigma = {kSigma, kSigma};
   result.cover.boxes.push_back(box);
-  result.cover.regions.push_back(lifted(witness->sheet.region));
+  result.cover.regions.push_back(lifted(compiled, reduction, witness->sheet.region));
   result.cover.reduction = reduction.steps;
   if (box.free.empty()) result.cover.points.push_back(box);
   result::describe_system(system, result);

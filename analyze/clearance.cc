@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "corank/analyze/components.h"
 #include "corank/certify/angle.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
@@ -11,8 +12,7 @@
 namespace corank::analyze {
 namespace {
 
-constexpr double kNothing = 1e-9;     // of the ball's room
-constexpr double kCenterSeconds = 3;  // for the question whether a configuration is at the centre
+constexpr double kNothing = 1e-9;  // of the ball's room
 
 Clearance::Center center_of(const study::Question& question, const Ball& ball, const solve::Options& search,
                             const solve::Control& control) {
@@ -20,15 +20,12 @@ Clearance::Center center_of(const study::Question& question, const Ball& ball, c
   study::Question at = question;
   at.model = ball.assembled;
   if (at.set) at.set = symbolic::SingularitySet::cspace;
-  solve::Options options;
-  options.max_solutions = 64;  // a proven sheet may pass by its box: one of them need not hold a configuration
-  options.threads = search.threads;
-  solve::Control own(control.rest(kCenterSeconds, 0));
-  const Cover cover = solve::solve(solve::prepare(study::system(at), options, own), own);
+  constexpr std::uint64_t kSolutions = 64;  // a proven sheet may pass by its box: one of them need not hold a configuration
+  const Cover cover = search_briefly(study::system(at), kSolutions, 0, search.threads, control);
   if (cover.complete() && cover.boxes.empty()) return Clearance::Center::not_assembled;
-  for (const Verdict v : {Verdict::regular, Verdict::isolated, Verdict::exact})
-    if (cover.count(v) > 0) return Clearance::Center::assembled;
-  return Clearance::Center::unknown;
+  const bool holds_one =
+      std::any_of(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) { return is_proven(b.verdict); });
+  return holds_one ? Clearance::Center::assembled : Clearance::Center::unknown;
 }
 
 }  // namespace
@@ -36,8 +33,8 @@ Clearance::Center center_of(const study::Question& question, const Ball& ball, c
 std::vector<CoordinateValue> coordinate_values(const System& system, const Box& box) {
   std::vector<CoordinateValue> values;
   for (int j = 0; j < system.configuration_size; ++j) {
-    const auto side = [&](int v) { return box[static_cast<std::size_t>(v)]; };
-    const Variable& v = system.variables[static_cast<std::size_t>(j)];
+    const auto side = [&](int v) { return box[v]; };
+    const Variable& v = system.variables[j];
     const auto angle = std::find_if(system.angles.begin(), system.angles.end(),
                                     [j](const Angle& a) { return a.cosine == j || a.sine == j; });
     if (angle == system.angles.end()) {
@@ -61,8 +58,8 @@ Clearance clearance(const study::Question& question, const BallOptions& options,
   if (wanted.check_center && question.set) {
     result.center = center_of(question, result.ball, search, control);
     if (result.center == Clearance::Center::not_assembled)
-      throw symbolic::ModelError({question.model.name(), 0, 0}, "the robot has no configuration at the centre of the ball",
-                                 "values that it can take, within the ranges of the model and those that are given");
+      throw question_error(question, "the robot has no configuration at the centre of the ball",
+                           "values that it can take, within the ranges of the model and those that are given");
   }
   stage.reset();
   const solve::Prepared prepared = solve::prepare(system, search, control);

@@ -50,6 +50,8 @@ struct Clearance {
 Clearance clearance(const study::Question& question, const BallOptions& ball, const ClearanceOptions& options,
                     const solve::Options& search, solve::Control& control);
 
+/// A number that is no larger, no smaller, with six digits.
+std::string rounded(double x, bool up);
 /// A few lines for a terminal.
 std::string to_table(const Clearance& clearance);
 /// {"model", "set", "at": {name: value}, "in": [names], "radius": {"lo", "hi" (null: none was proven)}, "nearest" (null, or

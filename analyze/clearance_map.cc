@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "corank/analyze/clearance_words.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
@@ -21,12 +21,8 @@ Interval part(const Interval& side, int k, int n) {
 }
 
 const char* word(MapCell::Robot robot) {
-  switch (robot) {
-    case MapCell::Robot::assembled: return "assembled";
-    case MapCell::Robot::nowhere: return "nowhere";
-    case MapCell::Robot::not_in_middle: break;
-  }
-  return "not in the middle";
+  constexpr std::array kWords{"assembled", "not in the middle", "nowhere"};
+  return kWords.at(static_cast<std::size_t>(robot));
 }
 
 void examine(CenterField& field, const MapOptions& options, ClearanceMap& map, MapCell& cell) {
@@ -59,19 +55,17 @@ const MapCell* ClearanceMap::best() const {
 ClearanceMap clearance_map(const study::Question& question, const BallOptions& ball, const std::vector<NamedRange>& region,
                            const MapOptions& options, const solve::Options& search, solve::Control& control) {
   const auto start = std::chrono::steady_clock::now();
-  if (region.size() != 2)
-    throw symbolic::ModelError({question.model.name(), 0, 0}, "a map has two coordinates", "as in --map x,y");
+  if (region.size() != 2) throw question_error(question, "a map has two coordinates", "as in --map x,y");
   const Box sides = bounded_region(question, region);
   for (std::size_t k = 0; k < sides.size(); ++k)
     if (!(sides[k].lo() < sides[k].hi()))
-      throw symbolic::ModelError({question.model.name(), 0, 0},
-                                 "the map's region has one value of '" + region[k].name + "' only",
-                                 "a lower end below the upper one, as in --map x=[0,1],y=[0,1]; --at for one centre");
+      throw question_error(question, "the map's region has one value of '" + region[k].name + "' only",
+                           "a lower end below the upper one, as in --map x=[0,1],y=[0,1]; --at for one centre");
   CenterField field(question, ball, region, search, control);
   ClearanceMap map;
   map.ball = field.ball(), map.names = field.names(), map.region = field.region();
   map.grid = options.grid, map.precision = options.precision;
-  const std::size_t all = static_cast<std::size_t>(options.grid) * static_cast<std::size_t>(options.grid);
+  const std::size_t all = std::size_t{1} * options.grid * options.grid;
   for (int row = 0; row < options.grid && !map.empty; ++row)
     for (int column = 0; column < options.grid && !map.empty && !control.search_ended(); ++column) {
       MapCell cell;
@@ -109,8 +103,7 @@ std::string to_json(const ClearanceMap& map) {
     json["cell_hi"] = bound(c.cell_upper);
     return json;
   };
-  Json json = {{"model", map.ball.question.model.name()}, {"set", set_of(map.ball)}, {"in", Json::array()}};
-  for (const NamedValue& c : map.ball.center) json["in"].push_back(c.name);
+  Json json = {{"model", map.ball.question.model.name()}, {"set", map.ball.set_name()}, {"in", map.ball.names()}};
   for (std::size_t k = 0; k < 2; ++k) json["region"][map.names[k]] = {map.region[k].lo(), map.region[k].hi()};
   json["grid"] = map.grid;
   json["empty"] = map.empty;

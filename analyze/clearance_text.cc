@@ -1,40 +1,36 @@
 // A clearance in words and as JSON.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "corank/analyze/clearance.h"
-#include "corank/analyze/clearance_words.h"
 
 namespace corank::analyze {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* word(Clearance::Center center) {
-  switch (center) {
-    case Clearance::Center::assembled: return "assembled";
-    case Clearance::Center::not_assembled: return "not assembled";
-    case Clearance::Center::unknown: break;
-  }
-  return "unknown";
-}
-
 Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 }  // namespace
 
+std::string rounded(double x, bool up) {
+  if (!std::isfinite(x)) return "infinity";
+  double shown = std::stod(fmt::format("{:.6g}", x));
+  const double unit = x == 0 ? 0 : std::pow(10, std::floor(std::log10(std::fabs(x))) - 5);
+  if (up ? shown < x : shown > x) shown += up ? unit : -unit;
+  return fmt::format("{:.6g}", shown);
+}
+
 std::string to_table(const Clearance& c) {
-  std::string ball, at;
-  for (const NamedValue& v : c.ball.center) {
-    ball += (ball.empty() ? "" : ", ") + v.name;
-    at += (at.empty() ? "" : ", ") + fmt::format("{} = {}", v.name, v.value.text());
-  }
-  std::string text = fmt::format("{}, {}: ball in {} about {}\n", c.ball.question.model.name(), set_of(c.ball), ball, at);
+  std::vector<std::string> at;
+  for (const NamedValue& v : c.ball.center) at.push_back(fmt::format("{} = {}", v.name, v.value.text()));
+  std::string text = fmt::format("{}, {}: ball in {} about {}\n", c.ball.question.model.name(), c.ball.set_name(),
+                                 fmt::join(c.ball.names(), ", "), fmt::join(at, ", "));
   const Nearest& n = c.nearest;
-  const bool plain = !c.ball.question.set;
-  const std::string what = plain ? "solution" : "singularity";
+  const std::string what = c.ball.question.set ? "singularity" : "solution";
   if (n.empty) {
     text += fmt::format("it is proven that there is no {} in the ranges", what);
     text += std::isfinite(c.ball.room)
@@ -73,12 +69,9 @@ std::string to_table(const Clearance& c) {
 
 std::string to_json(const Clearance& c) {
   const Nearest& n = c.nearest;
-  Json json = {
-      {"model", c.ball.question.model.name()}, {"set", set_of(c.ball)}, {"at", Json::object()}, {"in", Json::array()}};
-  for (const NamedValue& v : c.ball.center) {
-    json["at"][v.name] = v.value.text();
-    json["in"].push_back(v.name);
-  }
+  Json json = {{"model", c.ball.question.model.name()}, {"set", c.ball.set_name()}, {"at", Json::object()}};
+  for (const NamedValue& v : c.ball.center) json["at"][v.name] = v.value.text();
+  json["in"] = c.ball.names();
   json["radius"] = {{"lo", finite(c.lower())}, {"hi", n.upper ? Json(*n.upper) : Json(nullptr)}};
   json["nearest"] = nullptr;
   if (n.upper) {
@@ -94,7 +87,8 @@ std::string to_json(const Clearance& c) {
     json["seemingly"] = {{"distance", n.unproven_distance}, {"values", Json::object()}};
     for (const auto& [name, value] : c.seemingly) json["seemingly"]["values"][name] = value;
   }
-  json["center"] = word(c.center);
+  constexpr std::array kCenters{"assembled", "not assembled", "unknown"};
+  json["center"] = kCenters.at(static_cast<std::size_t>(c.center));
   json["complete"] = n.complete;
   json["stopped"] = c.stopped.empty() ? Json(nullptr) : Json(c.stopped);
   json["precision"] = c.precision;

@@ -5,21 +5,16 @@
 #include <map>
 #include <set>
 
+#include "corank/analyze/limits.h"
 #include "corank/certify/meeting.h"
+#include "corank/core/box.h"
 #include "corank/core/box_tree.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/problem.h"
 #include "corank/solve/solve.h"
 
 namespace corank::analyze {
 namespace {
-
-bool is_proven(Verdict v) { return v == Verdict::regular || v == Verdict::isolated || v == Verdict::exact; }
-
-bool encloses(const Box& outer, const Box& inner) {
-  for (std::size_t j = 0; j < outer.size(); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
 
 // Is it proven that two boxes that touch have no solution in common?
 class Separation {
@@ -30,8 +25,7 @@ class Separation {
   bool apart(const Box& a, const Box& b) {
     constexpr std::uint64_t kMost = 200;  // boxes of a search: what takes more is not known
     Box common = a;
-    for (std::size_t j = 0; j < common.size(); ++j)
-      if (!common[j].intersect(b[j])) return true;
+    if (!intersect(common, b)) return true;
     prepared_.options.roots = {common};
     const Cover cover = solve::solve(prepared_, control_, kMost);
     return cover.boxes.empty() && cover.complete();
@@ -47,19 +41,16 @@ int groups_with_solutions(const System& system, const Cover& cover, const std::v
                           solve::Control& control) {
   const std::size_t n = cover.boxes.size();
   if (n == 0) return 0;
-  std::vector<const Box*> sides;
-  for (const CoverBox& b : cover.boxes) sides.push_back(&b.box);
   boost::disjoint_sets_with_storage<> groups(n);
-  for (std::size_t i = 0; i < n; ++i) groups.make_set(i);
   std::map<int, std::size_t> first;  // box of each piece
   for (std::size_t i = 0; i < n; ++i)
     if (piece_of_box[i] >= 0) groups.union_set(i, first.emplace(piece_of_box[i], i).first->second);
   Separation separation(system, control);
-  const BoxTree tree(sides, sides.front()->size());
+  const BoxTree tree = box_tree(cover.boxes, &CoverBox::box);
   for (std::size_t i = 0; i < n; ++i)
-    tree.for_each_overlapping(*sides[i], 0.0, [&](std::size_t k) {
+    tree.for_each_overlapping(cover.boxes[i].box, 0.0, [&](std::size_t k) {
       if (k <= i || groups.find_set(i) == groups.find_set(k)) return;
-      if (control.ended() || !separation.apart(*sides[i], *sides[k])) groups.union_set(i, k);
+      if (control.ended() || !separation.apart(cover.boxes[i].box, cover.boxes[k].box)) groups.union_set(i, k);
     });
   std::set<std::size_t> proven;
   for (std::size_t i = 0; i < n; ++i)
@@ -77,10 +68,8 @@ std::string other_boxes(const Cover& cover) {
 
 // The hull of the boxes that a region's proof speaks of.
 Box hull(const std::vector<int>& boxes, const Cover& cover) {
-  Box result = cover.boxes[static_cast<std::size_t>(boxes.front())].box;
-  for (const int i : boxes)
-    for (std::size_t j = 0; j < result.size(); ++j)
-      result[j] = Interval::hull(result[j], cover.boxes[static_cast<std::size_t>(i)].box[j]);
+  Box result = cover.boxes[boxes.front()].box;
+  for (const int i : boxes) include(result, cover.boxes[i].box);
   return result;
 }
 
@@ -93,12 +82,11 @@ class Linker {
     for (const auto& [region, boxes] : boxes_of_) {
       index_[region] = regions_.size();
       region_numbers_.push_back(region);
-      regions_.push_back(&cover.regions[static_cast<std::size_t>(region)]);
+      regions_.push_back(&cover.regions[region]);
       hulls_.push_back(hull(boxes, cover));
-      free_.push_back(cover.boxes[static_cast<std::size_t>(boxes.front())].free);
+      free_.push_back(cover.boxes[boxes.front()].free);
     }
     sets_ = boost::disjoint_sets_with_storage<>(regions_.size());
-    for (std::size_t r = 0; r < regions_.size(); ++r) sets_.make_set(r);
   }
 
   void link(solve::Control& control) {
@@ -135,13 +123,13 @@ class Linker {
       for (const bool upper : {false, true}) {
         Box at = *regions_[r];
         for (const int f : free_[r]) {
-          const Interval& side = hulls_[r][static_cast<std::size_t>(f)];
-          at[static_cast<std::size_t>(f)] = Interval(f != face ? side.mid() : upper ? side.hi() : side.lo());
+          const Interval& side = hulls_[r][f];
+          at[f] = Interval(f != face ? side.mid() : upper ? side.hi() : side.lo());
         }
         const std::optional<certify::Sheet> point = test_.sheet_in(at, at);
         if (!point) continue;
         tree.for_each_overlapping(point->image, 0.0, [&](std::size_t s) {
-          if (encloses(*regions_[s], point->image) && sets_.find_set(r) != sets_.find_set(s)) join(r, s, *point);
+          if (contains(*regions_[s], point->image) && sets_.find_set(r) != sets_.find_set(s)) join(r, s, *point);
         });
       }
   }
@@ -171,7 +159,7 @@ class Linker {
       if (!first || !second) continue;
       sets_.union_set(r, s);
       const int number = static_cast<int>(cover_.regions.size() + bridges_.size());
-      bridges_.push_back({free_of(piece), piece.region});
+      bridges_.push_back({solve::other_variables(piece.dependent, system_.size()), piece.region});
       links_.push_back(link(region_numbers_[r], number, *first));
       links_.push_back(link(region_numbers_[s], number, *second));
       return;
@@ -189,17 +177,8 @@ class Linker {
     return true;
   }
 
-  std::vector<int> free_of(const certify::Sheet& sheet) const {
-    std::vector<int> free;
-    for (int j = 0; j < system_.size(); ++j)
-      if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) free.push_back(j);
-    return free;
-  }
-
   SheetLink link(int a, int b, const certify::Sheet& point) const {
-    SheetLink result{a, b, free_of(point), {}};
-    for (const Interval& side : point.image) result.point.push_back(side.mid());
-    return result;
+    return {a, b, solve::other_variables(point.dependent, system_.size()), midpoint(point.image)};
   }
 
   void join(std::size_t r, std::size_t s, const certify::Sheet& point) {
@@ -231,7 +210,7 @@ Components components(const System& system, const Cover& cover, solve::Control& 
         std::count_if(cover.points.begin(), cover.points.end(), [](const CoverBox& p) { return is_proven(p.verdict); }));
     result.pieces = result.at_least;
     result.piece_of_box.assign(cover.boxes.size(), -1);
-    if (static_cast<std::size_t>(result.at_least) == cover.points.size() && cover.complete())
+    if (std::cmp_equal(result.at_least, cover.points.size()) && cover.complete())
       result.at_most = result.at_least;
     else
       result.reason = "points that are not proven";
@@ -239,7 +218,7 @@ Components components(const System& system, const Cover& cover, solve::Control& 
   }
   Linker linker(system, cover);
   // Where there are more equations, or fewer, regions are not those of a square system's graphs.
-  if (static_cast<int>(system.equations.size()) + cover.dimension == system.size()) linker.link(control);
+  if (is_square_over(system, cover.dimension)) linker.link(control);
   linker.number(result);
   result.at_least = groups_with_solutions(system, cover, result.piece_of_box, control);
   const std::string others = other_boxes(cover);

@@ -9,6 +9,9 @@
 
 namespace corank::analyze {
 
+/// A box with this verdict holds a solution in the search domain.
+inline bool is_proven(Verdict v) { return v == Verdict::regular || v == Verdict::isolated || v == Verdict::exact; }
+
 /// The connected components of a set S whose complete cover is given.
 struct Components {
   int at_least = 0;

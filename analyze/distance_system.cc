@@ -5,6 +5,7 @@
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/problem.h"
 
 namespace corank::analyze {
 namespace {
@@ -48,10 +49,6 @@ Variable around(const std::string& name, const Interval& x) {
   return v;
 }
 
-}  // namespace
-
-namespace {
-
 // Of several variables, not all of them kernel unknowns.
 bool is_joint(const Polynomial& f, const System& system) {
   bool configuration = false;
@@ -59,7 +56,7 @@ bool is_joint(const Polynomial& f, const System& system) {
   for (int j = 0; j < system.size(); ++j) {
     if (!certify::mentions(f, j)) continue;
     ++variables;
-    configuration = configuration || system.variables[static_cast<std::size_t>(j)].kind != VariableKind::kernel;
+    configuration = configuration || system.variables[j].kind != VariableKind::kernel;
   }
   return configuration && variables > 1;
 }
@@ -88,8 +85,7 @@ void add_slack(System& system) {
 
 DistanceSystem distance_system(const certify::Reduction& reduction, const std::vector<Polynomial>& differences) {
   const UpwardRounding rounding;
-  DistanceSystem result{reduction.system, 0, {}};
-  for (const auto& definition : reduction.definitions) result.values.push_back(definition.value);
+  DistanceSystem result{reduction.system, 0, solve::values_of(reduction)};
   System& system = result.system;
   add_slack(system);
   std::vector<Interval> domain = system.domain();

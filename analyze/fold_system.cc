@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/solve/problem.h"
+
 namespace corank::analyze {
 namespace {
 
@@ -14,7 +16,7 @@ std::optional<Polynomial> derivative(const Polynomial& f, int j) {
     if (factor == m.factors.end()) continue;
     if (factor->function != Function::identity) return std::nullopt;
     std::vector<Factor> factors = m.factors;
-    Factor& own = factors[static_cast<std::size_t>(factor - m.factors.begin())];
+    Factor& own = factors[factor - m.factors.begin()];
     const ExactNumber power(own.power);
     if (--own.power == 0) std::erase_if(factors, [&](const Factor& x) { return x.variable == j; });
     result.monomials.emplace_back(m.coefficient * power, std::move(factors));
@@ -43,11 +45,9 @@ std::optional<System> fold_system(const System& system, const std::vector<int>& 
   result.inequalities = system.inequalities;
   result.equations = system.equations;
   const int n = system.size();
-  std::vector<int> unknowns;
-  for (int j = 0; j < n; ++j)
-    if (std::find(parameters.begin(), parameters.end(), j) == parameters.end()) unknowns.push_back(j);
-  for (const int j : unknowns) result.variables[static_cast<std::size_t>(j)].auxiliary = true;
-  for (const int p : parameters) result.variables[static_cast<std::size_t>(p)].kind = VariableKind::length;
+  const std::vector<int> unknowns = solve::other_variables(parameters, n);
+  for (const int j : unknowns) result.variables[j].auxiliary = true;
+  for (const int p : parameters) result.variables[p].kind = VariableKind::length;
   result.configuration_size = n;
 
   Polynomial norm{{Monomial(ExactNumber(-1), {})}, "norm of xi"}, half{{}, "half-space of xi"};
@@ -64,7 +64,7 @@ std::optional<System> fold_system(const System& system, const std::vector<int>& 
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const std::optional<Polynomial> of_x = derivative(f, unknowns[k]);
       if (!of_x) return std::nullopt;
-      const ExactNumber scale = power_of_two(sizes[static_cast<std::size_t>(unknowns[k])]);
+      const ExactNumber scale = power_of_two(sizes[unknowns[k]]);
       for (const Monomial& m : of_x->monomials) {
         if (m.is_trigonometric()) return std::nullopt;
         row.monomials.push_back(times(m, scale, n + static_cast<int>(k)));

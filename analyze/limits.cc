@@ -18,12 +18,12 @@ std::vector<Limit> limits(const System& system, const Cover& cover) {
   std::vector<Limit> result;
   for (const auto& [with, index] : found) {
     if (with == With::inequality) {
-      const Polynomial& g = system.inequalities[static_cast<std::size_t>(index)];
+      const Polynomial& g = system.inequalities[index];
       result.push_back({{g, with, index}, g.source});
       continue;
     }
     if (of_angles.contains(index)) continue;
-    const Variable& v = system.variables[static_cast<std::size_t>(index)];
+    const Variable& v = system.variables[index];
     const bool lower = with == With::lower_end;
     const std::string name = (lower ? "lower end of " : "upper end of ") + v.name;
     const ExactNumber one = ExactNumber::rational("1");
@@ -43,6 +43,16 @@ System with_single_values(System system) {
     system.equations.push_back(std::move(value));
   }
   return system;
+}
+
+std::optional<Box> same_configuration(const System& from, const Box& box, const System& to) {
+  Box result;
+  for (const Variable& v : to.variables) {
+    const int j = from.find(v.name);
+    if (j < 0) return std::nullopt;
+    result.push_back(box[j]);
+  }
+  return result;
 }
 
 }  // namespace corank::analyze

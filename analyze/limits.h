@@ -2,6 +2,7 @@
 // inside.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,14 @@ std::vector<Limit> limits(const System& system, const Cover& cover);
 /// The system with an equation more for each length whose domain is one value, as of a leg that is held: its solutions in
 /// the domain are the same, and so many equations fewer than variables as its set has dimensions.
 System with_single_values(System system);
+
+/// As many equations as variables, but for a set's dimensions.
+inline bool is_square_over(const System& system, int dimension) {
+  return static_cast<int>(system.equations.size()) + dimension == system.size();
+}
+
+/// The same point in another system's variables, found by their names: auxiliary ones may stand between them. Nothing where
+/// they are not all there.
+std::optional<Box> same_configuration(const System& from, const Box& box, const System& to);
 
 }  // namespace corank::analyze

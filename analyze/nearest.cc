@@ -17,7 +17,8 @@
 #include "corank/core/threads.h"
 #include "corank/solve/branching.h"
 #include "corank/solve/contractor.h"
-#include "corank/solve/minimum.h"
+#include "corank/solve/ipopt.h"
+#include "corank/solve/solve.h"
 
 namespace corank::analyze {
 namespace {
@@ -34,7 +35,6 @@ constexpr double kKernelWeight = 4;
 constexpr std::size_t kBatch = 32;  // boxes that are processed at once, whatever the number of threads
 
 double root_below(double square) { return square <= 0 ? 0 : square_root(Interval(square))->lo(); }
-double root_above(double square) { return square <= 0 ? 0 : square_root(Interval(square))->hi(); }
 
 class Search {
  public:
@@ -70,7 +70,6 @@ class Search {
   void improve(std::span<const Interval> x);
   void try_point(const std::vector<double>& point);
   bool nearly_solves(const std::vector<double>& point) const;
-  Box lifted(const Box& x) const;
 
   const solve::Prepared& prepared_;
   const NearestOptions& options_;
@@ -145,21 +144,14 @@ void Search::set_cutoff() {
   if (options_.at_most > 0) cutoff_ = std::min(cutoff_, options_.at_most * options_.at_most);
 }
 
-Box Search::lifted(const Box& x) const {
-  Box sides(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(prepared_.reduction.kept.size()));
-  for (int k = 0; k < compiled_.values(); ++k) sides.push_back(compiled_.evaluate(compiled_.value_row(k), x));
-  return prepared_.reduction.lift(sides);
-}
-
 bool Search::nearly_solves(const std::vector<double>& point) const {
   for (int row = 0; row < compiled_.equations(); ++row)
-    if (compiled_.evaluate_at(row, point.data()).mag() > kClose * equation_sizes_[static_cast<std::size_t>(row)])
-      return false;
+    if (compiled_.evaluate_at(row, point.data()).mag() > kClose * equation_sizes_[row]) return false;
   return true;
 }
 
 void Search::try_point(const std::vector<double>& point) {
-  const auto squared = static_cast<std::size_t>(extended_.squared);
+  const int squared = extended_.squared;
   if (!(point[squared] < upper_) && !(point[squared] < unproven_square_)) return;
   std::uniform_real_distribution<double> direction(-1, 1);
   for (int attempt = 0; attempt <= kTries; ++attempt) {
@@ -189,22 +181,22 @@ Search::Parts Search::process(Node node, Worker& worker) const {
   const UpwardRounding rounding;
   Parts parts;
   Box& x = node.x;
-  const auto squared = static_cast<std::size_t>(extended_.squared);
+  const int squared = extended_.squared;
   if (!x[squared].intersect(Interval(-kInfinity, cutoff_))) return parts;
   if (!worker.contractor.run(x, worker.statistics)) return parts;
   node.bound = std::max(node.bound, x[squared].lo());
   if (node.bound >= cutoff_) return parts;
   const auto& step = worker.contractor.step();
   const int j = branching_.choose(compiled_, x, limits_, step ? &*step : nullptr);
-  const auto where = j < 0 ? std::nullopt : solve::split_point(x[static_cast<std::size_t>(j)]);
+  const auto where = j < 0 ? std::nullopt : solve::split_point(x[j]);
   if (!where) {
     parts.stuck = std::move(node);
     return parts;
   }
-  const Interval side = x[static_cast<std::size_t>(j)];
+  const Interval side = x[j];
   parts.nodes = {node, std::move(node)};
-  parts.nodes[0].x[static_cast<std::size_t>(j)] = Interval(side.lo(), *where);
-  parts.nodes[1].x[static_cast<std::size_t>(j)] = Interval(*where, side.hi());
+  parts.nodes[0].x[j] = Interval(side.lo(), *where);
+  parts.nodes[1].x[j] = Interval(*where, side.hi());
   return parts;
 }
 
@@ -215,8 +207,7 @@ void Search::process_batch() {
   std::vector<Parts> parts(batch.size());
   arena_.execute([&] {
     tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-      parts[i] =
-          process(std::move(batch[i]), *workers_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
+      parts[i] = process(std::move(batch[i]), *workers_[tbb::this_task_arena::current_thread_index()]);
     });
   });
   const std::uint64_t before = statistics_.processed;
@@ -279,14 +270,13 @@ Nearest Search::run() {
   result.statistics = statistics_;
   if (best_) {
     result.upper = root_above(upper_);
-    result.box = lifted(best_->sheet.image);
+    result.box = lifted(compiled_, prepared_.reduction, best_->sheet.image);
     for (int j : best_->free)
-      if (static_cast<std::size_t>(j) < prepared_.reduction.kept.size())
-        result.free.push_back(prepared_.reduction.kept[static_cast<std::size_t>(j)]);
+      if (std::cmp_less(j, prepared_.reduction.kept.size())) result.free.push_back(prepared_.reduction.kept[j]);
   }
   if (unproven_square_ < upper_ && !unproven_.empty()) {
     const Box point(unproven_.begin(), unproven_.end());
-    for (const Interval& side : lifted(point)) result.unproven.push_back(side.mid());
+    for (const Interval& side : lifted(compiled_, prepared_.reduction, point)) result.unproven.push_back(side.mid());
     result.unproven_distance = root_above(unproven_square_);
   }
   return result;
@@ -294,9 +284,19 @@ Nearest Search::run() {
 
 }  // namespace
 
+double root_above(double square) { return square <= 0 ? 0 : square_root(Interval(square))->hi(); }
+
 Nearest nearest(const solve::Prepared& prepared, const std::vector<Polynomial>& differences, const NearestOptions& options,
                 solve::Control& control) {
   return Search(prepared, differences, options, control).run();
+}
+
+Cover search_briefly(System system, std::uint64_t solutions, std::uint64_t boxes, int threads,
+                     const solve::Control& control) {
+  constexpr double kSeconds = 3;
+  const solve::Options options{.threads = threads, .max_solutions = solutions};
+  solve::Control own(control.rest(kSeconds, boxes));
+  return solve::solve(solve::prepare(std::move(system), options, own), own);
 }
 
 }  // namespace corank::analyze

@@ -37,8 +37,16 @@ struct Nearest {
   Statistics statistics;
 };
 
+/// An upper bound of the square root; 0 of a number below 0. Requires UpwardRounding::active().
+double root_above(double square);
+
 /// `differences`: in the system's variables, linear; the distance is the root of the sum of their squares.
 Nearest nearest(const solve::Prepared& prepared, const std::vector<Polynomial>& differences, const NearestOptions& options,
                 solve::Control& control);
+
+/// A search of seconds that ends with so many solutions, for the question whether there is one: its end is none of the
+/// run's. `boxes`: processed at most; 0: no limit.
+Cover search_briefly(System system, std::uint64_t solutions, std::uint64_t boxes, int threads,
+                     const solve::Control& control);
 
 }  // namespace corank::analyze

@@ -12,6 +12,7 @@
 #include "corank/analyze/aspects.h"
 #include "corank/analyze/fold_system.h"
 #include "corank/analyze/topology.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/core/threads.h"
@@ -73,6 +74,10 @@ struct ParameterMapper::Parts {
   Box region;
   std::optional<Family> family;
 
+  /// Of a tile.
+  Box sides_of(int number) const {
+    return {part_of(region[0], number % kTiles, kTiles), part_of(region[1], number / kTiles, kTiles)};
+  }
   int depth() const { return std::bit_width(static_cast<unsigned>(options.resolution / kTiles)) - 1; }
   void make_family();
   void make_folds();
@@ -114,12 +119,10 @@ void ParameterMapper::Parts::make_family() {
 void ParameterMapper::Parts::make_folds() {
   const auto system = fold_system(family->reduction.system, family->parameters, family->problem->compiled.scales());
   if (!system) return;
-  solve::Options search;
   double edge = 0;
   for (const Interval& side : region) edge = std::max(edge, side.width() / options.resolution);
-  search.sigma = kFoldWidth * edge;
   solve::Control control;
-  family->folds = solve::prepare(*system, search, control);
+  family->folds = solve::prepare(*system, {.sigma = kFoldWidth * edge}, control);
 }
 
 ParameterMapper::ParameterMapper(MapQuestion question, const ParameterMapOptions& options) {
@@ -157,10 +160,10 @@ MapTile ParameterMapper::tile(int number, solve::Control& control) const {
 }
 
 MapTile ParameterMapper::Parts::count(int number, solve::Control& control) const {
-  MapTile tile{number, {}, {}, false, 0};
-  const Box sides{part_of(region[0], number % kTiles, kTiles), part_of(region[1], number / kTiles, kTiles)};
+  MapTile tile{.number = number};
+  const Box sides = sides_of(number);
   if (!family->reduction.consistent) {
-    tile.cells.push_back({sides, MapCellAnswer::Kind::proven, 0, {}});
+    tile.cells.push_back({sides, MapCellAnswer::Kind::proven, 0});
     return tile;
   }
   std::vector<Box> roots;
@@ -189,12 +192,12 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
   if (solutions) {
     const auto count = static_cast<int>(solutions->size());
     CORANK_CHECK(count % family->copies == 0);
-    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, count / family->copies, {}});
+    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, count / family->copies});
     if (options.certificate) tile.cells.back().sheets = sheets_of(cell, *solutions);
     return;
   }
   if (!finished) {
-    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::pending, {}, {}});
+    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::pending});
     return;
   }
   if (!last) {
@@ -204,16 +207,13 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
     }
     return;
   }
-  MapCellAnswer answer{cell.sides, MapCellAnswer::Kind::undecided, {}, {}};
+  MapCellAnswer answer{cell.sides, MapCellAnswer::Kind::undecided};
   solve::ParameterCell centre = search.part(cell, {Interval(cell.sides[0].mid()), Interval(cell.sides[1].mid())});
   search.refine(centre, kCentreShare, kMostOfCentre, control);
-  answer.at_centre = search.count(centre);
-  if (answer.at_centre) *answer.at_centre /= family->copies;
+  if (const auto there = search.solutions(centre)) answer.at_centre = static_cast<int>(there->size()) / family->copies;
   tile.cells.push_back(std::move(answer));
   if (cell.open.size() > kMostRoots) {
-    for (std::size_t k = 1; k < cell.open.size(); ++k)
-      for (std::size_t j = 0; j < cell.open[0].size(); ++j)
-        cell.open[0][j] = Interval::hull(cell.open[0][j], cell.open[k][j]);
+    for (std::size_t k = 1; k < cell.open.size(); ++k) include(cell.open[0], cell.open[k]);
     cell.open.resize(1);
   }
   std::move(cell.open.begin(), cell.open.end(), std::back_inserter(roots));
@@ -225,7 +225,7 @@ std::vector<MapSheet> ParameterMapper::Parts::sheets_of(const solve::ParameterCe
   const certify::Reduction& r = family->reduction;
   const auto lifted = [&](const std::vector<Interval>& sides) {
     Box box(r.kept.size() + r.definitions.size(), Interval::whole());
-    for (std::size_t j = 0; j < r.kept.size(); ++j) box[static_cast<std::size_t>(r.kept[j])] = sides[j];
+    for (std::size_t j = 0; j < r.kept.size(); ++j) box[r.kept[j]] = sides[j];
     return box;
   };
   std::vector<MapSheet> sheets;
@@ -246,21 +246,18 @@ void ParameterMapper::Parts::find_folds(std::vector<Box> roots, MapTile& tile, s
   tile.boundary_known = cover.complete();
   for (const CoverBox& box : cover.boxes) {
     Box sides;
-    for (const int p : family->parameters) sides.push_back(box.box[static_cast<std::size_t>(p)]);
+    for (const int p : family->parameters) sides.push_back(box.box[p]);
     const bool proven = box.verdict == Verdict::regular || box.verdict == Verdict::boundary || box.verdict == Verdict::exact;
     tile.boundary.push_back({std::move(sides), proven});
   }
 }
 
 MapTile ParameterMapper::Parts::sample(int number, solve::Control& control) const {
-  MapTile tile{number, {}, {}, false, 0};
+  MapTile tile{.number = number};
   const int across = options.resolution / kTiles;
-  const Box sides{part_of(region[0], number % kTiles, kTiles), part_of(region[1], number / kTiles, kTiles)};
+  const Box sides = sides_of(number);
   for (int k = 0; k < across * across; ++k) {
-    MapCellAnswer cell{{part_of(sides[0], k % across, across), part_of(sides[1], k / across, across)},
-                       MapCellAnswer::Kind::pending,
-                       {},
-                       {}};
+    MapCellAnswer cell{{part_of(sides[0], k % across, across), part_of(sides[1], k / across, across)}};
     if (!control.ended()) {
       cell.at_centre = answer_at(cell.sides, control);
       if (!control.ended()) cell.kind = MapCellAnswer::Kind::centre;
@@ -301,19 +298,15 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
   std::vector<bool> there(ParameterMapper::tiles(), false);
   map.boundary_known = p.family.has_value();
   for (MapTile& tile : tiles) {
-    CORANK_CHECK(!there.at(static_cast<std::size_t>(tile.number)));
-    there[static_cast<std::size_t>(tile.number)] = true;
+    CORANK_CHECK(!there.at(tile.number));
+    there[tile.number] = true;
     std::move(tile.cells.begin(), tile.cells.end(), std::back_inserter(map.cells));
     std::move(tile.boundary.begin(), tile.boundary.end(), std::back_inserter(map.boundary));
     map.processed += tile.processed;
     map.boundary_known = map.boundary_known && tile.boundary_known;
   }
   for (int k = 0; k < ParameterMapper::tiles(); ++k)
-    if (!there[static_cast<std::size_t>(k)])
-      map.cells.push_back({{part_of(p.region[0], k % kTiles, kTiles), part_of(p.region[1], k / kTiles, kTiles)},
-                           MapCellAnswer::Kind::pending,
-                           {},
-                           {}});
+    if (!there[k]) map.cells.push_back({p.sides_of(k)});
   const auto key = [](const Box& b) { return std::tuple(b[1].lo(), b[0].lo(), b[1].hi(), b[0].hi()); };
   std::sort(map.cells.begin(), map.cells.end(), [&](const auto& a, const auto& b) { return key(a.sides) < key(b.sides); });
   std::sort(map.boundary.begin(), map.boundary.end(), [&](const auto& a, const auto& b) {
@@ -331,21 +324,21 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
   return map;
 }
 
+double ParameterMap::share_of(const MapCellAnswer& cell) const {
+  return cell.sides[0].width() * cell.sides[1].width() / (region[0].width() * region[1].width());
+}
+
 std::map<int, double> ParameterMap::shares() const {
-  double all = region[0].width() * region[1].width();
   std::map<int, double> shares;
-  for (const MapCellAnswer& c : cells) {
-    const std::optional<int>& count = c.kind == MapCellAnswer::Kind::centre ? c.at_centre : c.count;
-    if (count) shares[*count] += c.sides[0].width() * c.sides[1].width() / all;
-  }
+  for (const MapCellAnswer& c : cells)
+    if (const auto& count = c.kind == MapCellAnswer::Kind::centre ? c.at_centre : c.count) shares[*count] += share_of(c);
   return shares;
 }
 
 double ParameterMap::proven_share() const {
   double share = 0;
   for (const MapCellAnswer& c : cells)
-    if (c.kind == MapCellAnswer::Kind::proven)
-      share += c.sides[0].width() * c.sides[1].width() / (region[0].width() * region[1].width());
+    if (c.kind == MapCellAnswer::Kind::proven) share += share_of(c);
   return share;
 }
 
@@ -364,7 +357,7 @@ ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOption
           MapTile tile = mapper.tile(number, control);
           const std::lock_guard lock(mutex);
           tiles.push_back(std::move(tile));
-          if (options.progress) options.progress(tiles.size(), static_cast<std::size_t>(ParameterMapper::tiles()));
+          if (options.progress) options.progress(tiles.size(), ParameterMapper::tiles());
         },
         tbb::simple_partitioner());
   });

@@ -49,8 +49,8 @@ struct MapCellAnswer {
   };
   Box sides;
   Kind kind = Kind::pending;
-  std::optional<int> count;        ///< proven
-  std::optional<int> at_centre;    ///< proven for the cell's centre alone
+  std::optional<int> count{};      ///< proven
+  std::optional<int> at_centre{};  ///< proven for the cell's centre alone
   std::vector<MapSheet> sheets{};  ///< of a proven cell, where a certificate is asked for
 };
 const char* to_string(MapCellAnswer::Kind kind);
@@ -64,8 +64,8 @@ struct MapBoundaryBox {
 /// A part of a map, which depends on nothing but the question, the resolution and its number.
 struct MapTile {
   int number = 0;
-  std::vector<MapCellAnswer> cells;
-  std::vector<MapBoundaryBox> boundary;
+  std::vector<MapCellAnswer> cells{};
+  std::vector<MapBoundaryBox> boundary{};
   bool boundary_known = false;  ///< as ParameterMap's
   std::uint64_t processed = 0;  ///< boxes
 };
@@ -88,6 +88,7 @@ struct ParameterMap {
   /// The share of the region's area that is proven to have each count; of centre answers, the share of the cells.
   std::map<int, double> shares() const;
   double proven_share() const;
+  double share_of(const MapCellAnswer& cell) const;
 };
 
 /// Made once for all tiles; its tiles may be made by several threads at once.

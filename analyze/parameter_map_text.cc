@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "corank/analyze/parameter_map.h"
+#include "corank/core/check.h"
 
 namespace corank::analyze {
 namespace {
@@ -64,13 +65,24 @@ std::string noun(const ParameterMap& map, int n) {
 }
 
 std::size_t cells_of(const ParameterMap& map, MapCellAnswer::Kind kind) {
-  return static_cast<std::size_t>(
-      std::count_if(map.cells.begin(), map.cells.end(), [&](const MapCellAnswer& c) { return c.kind == kind; }));
+  return std::count_if(map.cells.begin(), map.cells.end(), [&](const MapCellAnswer& c) { return c.kind == kind; });
 }
 
 }  // namespace
 
 const char* to_string(MapCellAnswer::Kind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+
+result::MapFile to_file(const MapQuestion& question, const ParameterMap& map) {
+  CORANK_CHECK(map.claims.has_value());
+  const study::Question& q = question.question;
+  result::MapFile file;
+  file.model = q.model.name();
+  file.model_text = q.model.source_text();
+  file.constants = q.constants;
+  file.family = {q.set, q.kernel, q.corank, question.over, question.fixed};
+  file.claims = *map.claims;
+  return file;
+}
 
 std::string to_table(const ParameterMap& map) {
   const auto range = [&](std::size_t k) {

@@ -8,7 +8,6 @@
 #include <deque>
 #include <numbers>
 
-#include "corank/analyze/path_ends.h"
 #include "corank/analyze/path_graph.h"
 #include "corank/analyze/path_sampling.h"
 #include "corank/analyze/path_space.h"
@@ -58,15 +57,6 @@ class PathFinder::Search {
   TubeBuilder builder_;
   std::deque<PathGraph> graphs_;
 };
-
-const char* to_string(Path::Status status) {
-  switch (status) {
-    case Path::Status::path: return "path";
-    case Path::Status::separated: return "separated";
-    case Path::Status::unknown: return "unknown";
-  }
-  return "?";
-}
 
 bool PathFinder::Search::try_way(const Ends& ends, const TubeBuilder::Points& points, const std::string& method, Path& path,
                                  const solve::Control& control, std::size_t* failed) {
@@ -179,7 +169,7 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
       double squares = 0;
       for (std::size_t j = 0; j < names.size(); ++j) {
         const int length = space_.system().find(names[j]);  // an angle is no variable
-        const double size = length < 0 ? 1 : space_.sizes()[static_cast<std::size_t>(length)];
+        const double size = length < 0 ? 1 : space_.sizes()[length];
         squares += std::pow((values[k][j] - values[k - 1][j]) / size, 2);
       }
       path.length += std::sqrt(squares);
@@ -224,7 +214,7 @@ Box PathFinder::end(const std::vector<NamedValue>& values, int mode, const std::
   }
   if (found.empty()) throw EndError(option + ": there is no configuration with these values");
   if (mode == 0 && found.size() == 1) return found.front();
-  if (mode >= 1 && mode <= static_cast<int>(found.size())) return found[static_cast<std::size_t>(mode - 1)];
+  if (mode >= 1 && mode <= static_cast<int>(found.size())) return found[mode - 1];
   std::string text =
       fmt::format("{}: {} configuration{} {} these values; choose with {}-mode or by more coordinates:", option,
                   found.size(), found.size() == 1 ? "" : "s", found.size() == 1 ? "has" : "have", option);

@@ -1,11 +1,10 @@
-#include "corank/analyze/path_ends.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "corank/analyze/path_space.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/exactness.h"
@@ -16,8 +15,7 @@ namespace corank::analyze {
 namespace {
 
 Polynomial equals(int variable, const ExactNumber& value) {
-  Polynomial f;
-  f.monomials.emplace_back(ExactNumber(1), std::vector<Factor>{{variable, 1, Function::identity}});
+  Polynomial f{{Monomial(ExactNumber(1), {Factor{variable}})}, ""};
   if (!value.is_zero()) f.monomials.emplace_back(-value, std::vector<Factor>{});
   return f;
 }
@@ -34,10 +32,6 @@ bool is_circle(const Polynomial& f, const Angle& angle) {
   return squares == 2;
 }
 
-symbolic::ModelError error(const PathSpace& space, const std::string& problem, const std::string& expectation) {
-  return {{space.question().model.name(), 0, 0}, problem, expectation};
-}
-
 // The space's system with these values, exactly.
 System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
   System system = space.system();
@@ -49,17 +43,15 @@ System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
     if (angle != system.angles.end()) {
       const auto circle = std::find_if(system.equations.begin(), system.equations.end(),
                                        [&](const Polynomial& f) { return is_circle(f, *angle); });
-      if (circle == system.equations.end()) throw error(space, "'" + v.name + "' has one value by its range", "no other");
+      if (circle == system.equations.end())
+        throw question_error(space.question(), "'" + v.name + "' has one value by its range", "no other");
       system.equations.erase(circle);
       system.equations.push_back(equals(angle->cosine, ExactNumber::apply(ConstantFunction::cos, value)));
       system.equations.push_back(equals(angle->sine, ExactNumber::apply(ConstantFunction::sin, value)));
     } else if (length >= 0 && length < system.configuration_size) {
       system.equations.push_back(equals(length, value));
     } else {
-      std::string names;
-      for (const auto& c : space.question().model.coordinates())
-        if (!c.auxiliary) names += (names.empty() ? "" : ", ") + c.name;
-      throw error(space, "there is no coordinate '" + v.name + "'", "one of " + names);
+      throw unknown_coordinate(space.question(), v.name);
     }
   }
   system.name += " end";
@@ -69,11 +61,11 @@ System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
 }  // namespace
 
 std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>& values, solve::Control& control) {
-  const auto needed = static_cast<std::size_t>(std::max(space.dimension(), 0));
+  const std::size_t needed = std::max(space.dimension(), 0);
   std::vector<NamedValue> exact, further;
   for (const NamedValue& v : values) {
     const int index = space.question().model.find_coordinate(v.name);
-    const bool moves = index < 0 || !is_fixed(space.question().model.coordinates()[static_cast<std::size_t>(index)]);
+    const bool moves = index < 0 || !is_fixed(space.question().model.coordinates()[index]);
     (moves && exact.size() < needed ? exact : further).push_back(v);
   }
   if (exact.size() < needed)
@@ -108,11 +100,11 @@ std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>
       double distance = at->value.mid() - asked;
       if (angle) distance = std::remainder(distance, 2 * std::numbers::pi);
       const int length = space.system().find(v.name);
-      const double size = angle || length < 0 ? 1 : space.sizes()[static_cast<std::size_t>(length)];
+      const double size = angle || length < 0 ? 1 : space.sizes()[length];
       return std::fabs(distance) > PathFinder::kNear * (angle ? 1 : std::max(size, std::fabs(asked)));
     });
   };
-  result.erase(std::remove_if(result.begin(), result.end(), is_far), result.end());
+  std::erase_if(result, is_far);
   return result;
 }
 

@@ -63,30 +63,21 @@ struct PathGraph::Graph {
 
 PathGraph::~PathGraph() = default;
 
-std::size_t PathGraph::boxes() const { return graph_->cover.boxes.size(); }
-
 PathGraph::PathGraph(const PathSpace& space, double sigma, int threads, std::uint64_t most_boxes, solve::Control& control)
     : space_(space), sigma_(sigma), graph_(std::make_unique<Graph>()) {
   double length = 1;
   for (std::size_t j = 0; j < space.sizes().size(); ++j)
     if (space.system().variables[j].is_plain_length()) length = space.sizes()[j];
-  solve::Options options;
-  options.threads = threads;
-  options.sigma_angle = sigma;
-  options.sigma_length = sigma * length;
-  options.max_found = most_boxes;
+  const solve::Options options{
+      .sigma_length = sigma * length, .sigma_angle = sigma, .threads = threads, .max_found = most_boxes};
   graph_->cover = solve::solve(solve::prepare(space.system(), options, control), control);
   Cover& cover = graph_->cover;
   if (most_boxes > 0 && cover.boxes.size() >= most_boxes) return;
   ready_ = cover.complete();
   if (!ready_ || cover.boxes.empty()) return;
   const UpwardRounding rounding;
-  std::vector<const Box*> sides;
-  for (const CoverBox& box : cover.boxes) {
-    sides.push_back(&box.box);
-    graph_->signs.push_back(space.signs(box.box));
-  }
-  graph_->tree = std::make_unique<BoxTree>(std::move(sides), cover.boxes.front().box.size());
+  for (const CoverBox& box : cover.boxes) graph_->signs.push_back(space.signs(box.box));
+  graph_->tree = std::make_unique<BoxTree>(box_tree(cover.boxes, &CoverBox::box));
   graph_->neighbours.resize(cover.boxes.size());
   for (std::size_t b = 0; b < cover.boxes.size(); ++b)
     graph_->tree->for_each_overlapping(widened(cover.boxes[b].box, space.sizes()), 0, [&](std::size_t other) {
@@ -107,9 +98,8 @@ bool PathGraph::apart(const Box& from, const Box& to, const std::vector<int>& si
   Graph::Groups& groups = entry->second;
   if (is_new) {
     groups.boxes = compatible(signs);
-    std::vector<const Box*> sides;
-    for (const std::size_t b : groups.boxes) sides.push_back(&graph_->cover.boxes[b].box);
-    if (!sides.empty()) groups.group = BoxTree(sides, sides.front()->size()).groups(0.0, {});
+    const auto box_of = [&](std::size_t b) -> const Box& { return graph_->cover.boxes[b].box; };
+    groups.group = box_tree(groups.boxes, box_of).groups(0.0, {});
     for (std::size_t k = 0; k < groups.boxes.size(); ++k) groups.group_of[groups.boxes[k]] = groups.group[k];
   }
   const auto groups_of = [&](const Box& end) {
@@ -137,9 +127,9 @@ void PathGraph::prepare_points(const std::vector<int>& signs) {
     for (int k = 0; k < kTries && points.margin[b] == 0; ++k) {
       PathSpace::Point x(space_.size());
       for (int j = 0; j < space_.size(); ++j) {
-        const Interval& side = box[static_cast<std::size_t>(j)];
+        const Interval& side = box[j];
         const double share = k == 0 ? 0.5 : std::uniform_real_distribution<double>(0, 1)(random);
-        x(j) = (side.lo() + share * (side.hi() - side.lo())) / space_.sizes()[static_cast<std::size_t>(j)];
+        x(j) = (side.lo() + share * (side.hi() - side.lo())) / space_.sizes()[j];
       }
       if (!space_.project(x, sigma_ + 1e-6 + 0.5 * x.lpNorm<Eigen::Infinity>())) continue;
       const PathSpace::State state = space_.state(x);

@@ -20,7 +20,6 @@ class PathGraph {
 
   bool ready() const { return ready_; }
   double sigma() const { return sigma_; }
-  std::size_t boxes() const;
 
   /// Theorem: on a path without singularities all sign functions (PathSpace::signs) keep their signs. Each of its points is
   /// in a box of the cover whose signs do not contradict them. Those boxes are finitely many closed sets; a path, which is

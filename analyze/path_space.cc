@@ -23,32 +23,13 @@ bool is_small(const PolynomialMatrix& m) {
                                                   [](const Polynomial& f) { return f.monomials.size() <= kMostTerms; });
 }
 
-Avoid block_of(symbolic::SingularitySet set) {
-  return set == symbolic::SingularitySet::forward ? Avoid::forward : Avoid::inverse;
-}
-
-// Weights by which each row's and each column's largest entry is 1 in magnitude or less, nearly: magnitudes, row by row.
-void balance(const Eigen::MatrixXd& magnitudes, std::vector<double>& rows, std::vector<double>& columns) {
-  constexpr int kTurns = 4;
-  rows.assign(static_cast<std::size_t>(magnitudes.rows()), 1);
-  columns.assign(static_cast<std::size_t>(magnitudes.cols()), 1);
-  const Eigen::Map<Eigen::ArrayXd> r(rows.data(), magnitudes.rows()), c(columns.data(), magnitudes.cols());
-  const auto inverse_root = [](double x) { return x > 0 && std::isfinite(x) ? 1 / std::sqrt(x) : 1; };
-  for (int turn = 0; turn < kTurns; ++turn) {
-    const Eigen::MatrixXd a = (magnitudes.array().colwise() * r).rowwise() * c.transpose();
-    for (Eigen::Index i = 0; i < a.rows(); ++i) rows[static_cast<std::size_t>(i)] *= inverse_root(a.row(i).maxCoeff());
-    for (Eigen::Index j = 0; j < a.cols(); ++j) columns[static_cast<std::size_t>(j)] *= inverse_root(a.col(j).maxCoeff());
-  }
-}
-
 bool is_square(const std::vector<int>& rows, const PolynomialMatrix& m) {
   return static_cast<int>(rows.size()) == m.columns;
 }
 
 }  // namespace
 
-PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factors)
-    : question_(std::move(question)), avoid_(avoid) {
+PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factors) : question_(std::move(question)) {
   question_.set = symbolic::SingularitySet::cspace;
   question_.corank = 1;
   equations_ = study::equations(question_);
@@ -66,6 +47,19 @@ PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factor
   settle_sizes();
 }
 
+// Weights by which each row's and each column's largest entry is 1 in magnitude or less, nearly.
+PathSpace::Weights PathSpace::balancing(const Eigen::MatrixXd& magnitudes) {
+  constexpr int kTurns = 4;
+  Weights w{Eigen::VectorXd::Ones(magnitudes.rows()), Eigen::VectorXd::Ones(magnitudes.cols())};
+  const auto inverse_root = [](double x) { return x > 0 && std::isfinite(x) ? 1 / std::sqrt(x) : 1; };
+  for (int turn = 0; turn < kTurns && magnitudes.size() > 0; ++turn) {
+    const Eigen::MatrixXd a = w.rows.asDiagonal() * magnitudes * w.columns.asDiagonal();
+    w.rows.array() *= a.rowwise().maxCoeff().unaryExpr(inverse_root).array();
+    w.columns.array() *= a.colwise().maxCoeff().transpose().unaryExpr(inverse_root).array();
+  }
+  return w;
+}
+
 void PathSpace::settle_sizes() {
   equation_sizes_ = solve::typical_sizes(*compiled_, system_.domain()).equations;
   for (const Variable& v : system_.variables) sizes_.push_back(v.size);
@@ -76,11 +70,10 @@ void PathSpace::settle_sizes() {
     Eigen::MatrixXd magnitudes(static_cast<Eigen::Index>(filled_rows_[k].size()), m.columns);
     for (Eigen::Index i = 0; i < magnitudes.rows(); ++i)
       for (int j = 0; j < m.columns; ++j) {
-        const int entry = first_entry_[k] + filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j;
+        const int entry = first_entry_[k] + filled_rows_[k][i] * m.columns + j;
         magnitudes(i, j) = compiled_->evaluate(compiled_->value_row(entry), domain).mag();
       }
-    Weights& weights = weights_.emplace_back();
-    if (magnitudes.size() > 0) balance(magnitudes, weights.rows, weights.columns);
+    weights_.push_back(balancing(magnitudes));
   }
 }
 
@@ -101,27 +94,24 @@ void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
   if (!blocks)
     throw symbolic::ModelError({question_.model.name(), 0, 0}, "its velocity equation has sines of lengths",
                                "angles in sines and cosines");
-  const Block block = set == symbolic::SingularitySet::forward ? Block::forward : Block::inverse;
-  const PolynomialMatrix& m = blocks->matrices[static_cast<std::size_t>(block)];
-  std::vector<int> filled;
+  const Avoid of = set == symbolic::SingularitySet::forward ? Avoid::forward : Avoid::inverse;
+  const PolynomialMatrix& m =
+      blocks->matrices[static_cast<std::size_t>(of == Avoid::forward ? Block::forward : Block::inverse)];
+  std::vector<int>& filled = filled_rows_.emplace_back();
   for (int i = 0; i < m.rows; ++i) {
     bool zero = true;
-    for (int j = 0; j < m.columns; ++j)
-      zero = zero && m.entries[static_cast<std::size_t>(i * m.columns + j)].monomials.empty();
+    for (int j = 0; j < m.columns; ++j) zero = zero && m.entries[i * m.columns + j].monomials.empty();
     if (!zero) filled.push_back(i);
   }
   matrices_.push_back(m);
-  blocks_.push_back(block_of(set));
+  blocks_.push_back(of);
   ranks_.push_back(std::min(static_cast<int>(filled.size()), m.columns));
-  const bool square = is_square(filled, m);
-  filled_rows_.push_back(std::move(filled));
-  if (!square || !with_factors || !is_small(m)) return;
+  if (!is_square(filled, m) || !with_factors || !is_small(m)) return;
   try {
-    const symbolic::ExpressionMatrix matrix =
-        symbolic::kernel_question(question_.model, set, symbolic::KernelSide::left).matrix;
-    const std::vector<symbolic::Expression> factors = symbolic::determinant_factors(question_.model, matrix);
+    const std::vector<symbolic::Expression> factors =
+        symbolic::determinant_factors(question_.model, symbolic::locked_matrix(question_.model, set));
     for (Polynomial& f : symbolic::polynomials(equations_, factors)) factors_.push_back(std::move(f));
-    for (const symbolic::Expression& f : factors) factor_names_.push_back({block_of(set), f.text()});
+    for (const symbolic::Expression& f : factors) factor_names_.push_back({of, f.text()});
   } catch (const symbolic::ModelError&) {
     // too large: the determinant's own sign has to do
   }
@@ -149,8 +139,7 @@ std::vector<int> PathSpace::signs(const Box& box) const {
     certify::IntervalMatrix a(m.columns, m.columns);
     for (int i = 0; i < m.columns; ++i)
       for (int j = 0; j < m.columns; ++j)
-        a(i, j) = compiled_->evaluate(
-            compiled_->value_row(first_entry_[k] + filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j), box);
+        a(i, j) = compiled_->evaluate(compiled_->value_row(first_entry_[k] + filled_rows_[k][i] * m.columns + j), box);
     result.push_back(certify::determinant_sign(std::move(a)));
   }
   const int factors = static_cast<int>(factors_.size());
@@ -163,20 +152,17 @@ Eigen::VectorXd PathSpace::residual(const Point& x) const {
   const std::vector<double> at = values(x);
   const UpwardRounding rounding;
   Eigen::VectorXd f(compiled_->equations());
-  for (int i = 0; i < compiled_->equations(); ++i)
-    f(i) = compiled_->evaluate_at(i, at.data()).mid() / equation_sizes_[static_cast<std::size_t>(i)];
+  for (int i = 0; i < compiled_->equations(); ++i) f(i) = compiled_->evaluate_at(i, at.data()).mid() / equation_sizes_[i];
   return f;
 }
 
 Eigen::MatrixXd PathSpace::jacobian(const Point& x) const {
-  std::vector<double> entries(static_cast<std::size_t>(compiled_->entries()));
+  std::vector<double> entries(compiled_->entries());
   compiled_->approximate_jacobian(values(x).data(), entries.data());
   Eigen::MatrixXd j = Eigen::MatrixXd::Zero(compiled_->equations(), size());
   for (int i = 0; i < compiled_->equations(); ++i)
     for (int k = compiled_->row_begin(i); k < compiled_->row_begin(i + 1); ++k)
-      j(i, compiled_->column(k)) += entries[static_cast<std::size_t>(k)] *
-                                    sizes_[static_cast<std::size_t>(compiled_->column(k))] /
-                                    equation_sizes_[static_cast<std::size_t>(i)];
+      j(i, compiled_->column(k)) += entries[k] * sizes_[compiled_->column(k)] / equation_sizes_[i];
   return j;
 }
 
@@ -223,8 +209,7 @@ PathSpace::State PathSpace::state(const Point& x) const {
     Eigen::MatrixXd a(static_cast<Eigen::Index>(filled_rows_[k].size()), m.columns);
     for (Eigen::Index i = 0; i < a.rows(); ++i)
       for (int j = 0; j < m.columns; ++j)
-        a(i, j) = entries[static_cast<std::size_t>(filled_rows_[k][static_cast<std::size_t>(i)] * m.columns + j)] *
-                  weights_[k].rows[static_cast<std::size_t>(i)] * weights_[k].columns[static_cast<std::size_t>(j)];
+        a(i, j) = entries[filled_rows_[k][i] * m.columns + j] * weights_[k].rows[i] * weights_[k].columns[j];
     if (a.size() == 0) continue;
     const Eigen::VectorXd sigma = singular_values(a);
     state.margin = std::min(state.margin, sigma(0) > 0 ? sigma(sigma.size() - 1) / sigma(0) : 0);
@@ -234,8 +219,8 @@ PathSpace::State PathSpace::state(const Point& x) const {
   for (const double f : value_rows(at, compiled_->values() - factors, factors)) state.signs.push_back(f > 0 ? 1 : -1);
   state.inside = true;
   for (int j = 0; j < size() && state.inside; ++j) {
-    const Variable& v = system_.variables[static_cast<std::size_t>(j)];
-    const double slack = v.kind == VariableKind::length ? 0 : 1e-9, value = at[static_cast<std::size_t>(j)];
+    const Variable& v = system_.variables[j];
+    const double slack = v.kind == VariableKind::length ? 0 : 1e-9, value = at[j];
     if ((!v.lower_implied && value < v.domain.lo() - slack) || (!v.upper_implied && value > v.domain.hi() + slack))
       state.inside = false;
   }

@@ -24,7 +24,6 @@ class PathSpace {
   const System& system() const { return system_; }
   int size() const { return system_.size(); }
   int dimension() const { return system_.size() - static_cast<int>(system_.equations.size()); }
-  Avoid avoid() const { return avoid_; }
   /// L_y, L_z or both over the system's variables, and the ranks that they have but at singularities.
   const std::vector<PolynomialMatrix>& matrices() const { return matrices_; }
   const std::vector<int>& ranks() const { return ranks_; }
@@ -68,7 +67,6 @@ class PathSpace {
   void settle_sizes();
 
   study::Question question_;
-  Avoid avoid_;
   symbolic::TrigonometricSystem equations_;
   System system_;
   std::vector<double> sizes_, equation_sizes_;
@@ -81,9 +79,13 @@ class PathSpace {
   std::unique_ptr<certify::CompiledSystem> compiled_;  // values: the matrices' entries, then the factors
   std::vector<int> first_entry_;                       // of each matrix among the values
   struct Weights {
-    std::vector<double> rows, columns;
+    Eigen::VectorXd rows, columns;
   };
+  static Weights balancing(const Eigen::MatrixXd& magnitudes);
   std::vector<Weights> weights_;  // of each matrix, by which its entries are of like size whatever the unit of length
 };
+
+/// As PathFinder::ends(), of its space.
+std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>& values, solve::Control& control);
 
 }  // namespace corank::analyze

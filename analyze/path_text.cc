@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -33,12 +34,13 @@ std::optional<double> length_size(const System& system, const Tube& tube) {
 }
 
 const char* to_string(Avoid avoid) {
-  switch (avoid) {
-    case Avoid::forward: return "forward";
-    case Avoid::inverse: return "inverse";
-    case Avoid::both: return "both";
-  }
-  return "?";
+  constexpr std::array kNames{"forward", "inverse", "both"};
+  return kNames.at(static_cast<std::size_t>(avoid));
+}
+
+const char* to_string(Path::Status status) {
+  constexpr std::array kNames{"path", "separated", "unknown"};
+  return kNames.at(static_cast<std::size_t>(status));
 }
 
 std::string to_text(const PathFinder& finder, const Path& path) {

@@ -1,9 +1,7 @@
-#include "corank/analyze/piece_places.h"
-
 #include <algorithm>
 #include <map>
 
-#include "corank/analyze/aspects.h"
+#include "corank/analyze/pieces.h"
 #include "corank/core/box_tree.h"
 #include "corank/core/rounding.h"
 
@@ -12,17 +10,14 @@ namespace {
 
 class Places {
  public:
-  Places(SignCells& cells, const Pieces& pieces) : cells_(cells), parts_(cells.cells().size()) {
+  Places(SignCells& cells, const Pieces& pieces)
+      : cells_(cells), parts_(cells.cells().size()), tree_(box_tree(cells.cells(), &SignCell::sides)) {
     for (const Pieces::Part& part : pieces.parts) parts_[part.cell].emplace(part.signs, part.piece);
-    std::vector<const Box*> sides;
-    for (const SignCell& cell : cells.cells()) sides.push_back(&cell.sides);
-    if (!sides.empty()) tree_.emplace(sides, sides.front()->size());
   }
 
   int of(const Box& box) {
-    if (!tree_) return -1;
     near_.clear();
-    tree_->for_each_overlapping(box, 0.0, [&](std::size_t c) { near_.push_back(c); });
+    tree_.for_each_overlapping(box, 0.0, [&](std::size_t c) { near_.push_back(c); });
     const std::optional<int> only = only_piece();
     return only ? *only : in_the_middle(box);
   }
@@ -41,11 +36,7 @@ class Places {
 
   bool is_over_middle(std::size_t c, const Box& box) const {
     const SignCell& cell = cells_.cells()[c];
-    const std::vector<int>& frees = cells_.free(cell);
-    return std::all_of(frees.begin(), frees.end(), [&](int f) {
-      const auto j = static_cast<std::size_t>(f);
-      return cell.sides[j].contains(box[j].mid());
-    });
+    return std::all_of(cell.free.begin(), cell.free.end(), [&](int j) { return cell.sides[j].contains(box[j].mid()); });
   }
 
   // Of the solutions over the middle's free values the one that is nearest to it.
@@ -55,11 +46,7 @@ class Places {
     int best = -1;
     double least = 0;
     for (const std::size_t c : near_) {
-      const SignCell& cell = cells_.cells()[c];
-      Box at = cell.sides;
-      for (const int f : cells_.free(cell))
-        at[static_cast<std::size_t>(f)] = Interval(box[static_cast<std::size_t>(f)].mid());
-      const Box solution = cells_.solution_over(cell, std::move(at));
+      const Box solution = cells_.solution_over_middle(cells_.cells()[c], box);
       const auto part = parts_[c].find(cells_.signs(solution));
       if (part == parts_[c].end()) continue;
       double far = 0;
@@ -73,7 +60,7 @@ class Places {
 
   SignCells& cells_;
   std::vector<std::map<std::vector<int>, int>> parts_;  // of each cell, by the signs
-  std::optional<BoxTree> tree_;
+  BoxTree tree_;
   std::vector<std::size_t> near_;
 };
 
@@ -85,7 +72,7 @@ std::vector<int> piece_places(SignCells& cells, const Pieces& pieces, const std:
   Places places(cells, pieces);
   std::vector<int> result(boxes.size(), -1);
   for (std::size_t i = 0; i < boxes.size() && !control.ended(); ++i)
-    if (boxes[i].box.size() == static_cast<std::size_t>(cells.system().size()) && boxes[i].verdict != Verdict::pending)
+    if (std::cmp_equal(boxes[i].box.size(), cells.system().size()) && boxes[i].verdict != Verdict::pending)
       result[i] = places.of(boxes[i].box);
   return result;
 }
@@ -95,10 +82,8 @@ std::optional<int> only_piece(const SignCells& cells, const Pieces& pieces, cons
   for (const Pieces::Part& part : pieces.parts) {
     if (part.signs != signs) continue;
     const Box& sides = cells.cells()[part.cell].sides;
-    bool meets = true;
-    for (std::size_t j = 0; j < box.size() && meets; ++j)
-      meets = !(box[j].hi() < sides[j].lo() || sides[j].hi() < box[j].lo());
-    if (!meets) continue;
+    if (!std::equal(box.begin(), box.end(), sides.begin(), [](const auto& x, const auto& y) { return x.overlaps(y); }))
+      continue;
     if (only && *only != part.piece) return std::nullopt;
     only = part.piece;
   }

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <map>
 
-#include "corank/core/box_tree.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/core/signs.h"
+#include "corank/solve/problem.h"
 
 namespace corank::analyze {
 namespace {
@@ -25,8 +26,7 @@ std::vector<double> sizes_of(const System& system, const std::vector<Polynomial>
     double size = 0;
     for (const Monomial& m : f.monomials) {
       double term = m.enclosure.mag();
-      for (const Factor& x : m.factors)
-        term *= std::pow(system.variables[static_cast<std::size_t>(x.variable)].size, x.power);
+      for (const Factor& x : m.factors) term *= std::pow(system.variables[x.variable].size, x.power);
       if (!m.factors.empty()) size = std::max(size, term);
     }
     sizes.push_back(size > 0 && std::isfinite(size) ? size : 1);
@@ -48,60 +48,45 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
   const UpwardRounding rounding;
   for (std::size_t i = 0; i < cover.boxes.size(); ++i) {
     const CoverBox& box = cover.boxes[i];
-    CORANK_CHECK((box.verdict == Verdict::regular || box.verdict == Verdict::boundary) && box.region >= 0);
+    CORANK_CHECK(is_sheet(box) && box.region >= 0);
     SignCell cell{{box.free, box.box}, static_cast<int>(i)};
     // The sheet of a `boundary` box may go on beyond the domain.
     if (box.verdict == Verdict::boundary)
-      for (std::size_t d = 0; d < cell.sides.size(); ++d)
-        if (std::find(box.free.begin(), box.free.end(), static_cast<int>(d)) == box.free.end())
-          cell.sides[d] = region(cell)[d];
+      for (const int d : solve::other_variables(box.free, system.size())) cell.sides[d] = region(cell)[d];
     widen_region(cell);
     evaluate(cell);
     if (!is_outside(cell)) cells_.push_back(std::move(cell));
   }
-  index_boxes();
+  boxes_ = box_tree(cover_.boxes, &CoverBox::box);
 }
 
 // A region that was lifted from a reduced system may have no width where another sheet's differs by rounding.
 void SignCells::widen_region(const SignCell& cell) {
   certify::Sheet sheet = proof_.sheet_over(cell);
   if (!sheet.proven) return;
-  CoverBox& box = cover_.boxes[static_cast<std::size_t>(cell.box)];
+  CoverBox& box = cover_.boxes[cell.box];
   box.region = static_cast<int>(cover_.regions.size());
   cover_.regions.push_back(std::move(sheet.region));
 }
 
-void SignCells::index_boxes() {
-  std::vector<const Box*> sides;
-  for (const CoverBox& box : cover_.boxes) sides.push_back(&box.box);
-  if (!sides.empty()) boxes_ = std::make_shared<const BoxTree>(std::move(sides), cover_.boxes.front().box.size());
-}
-
 // Those that were added first of all: they are there to take over.
 bool SignCells::comes_before(int a, int b) const {
-  const auto added = [&](int i) { return static_cast<std::size_t>(i) >= given_; };
+  const auto added = [&](int i) { return i >= static_cast<int>(given_); };
   return added(a) != added(b) ? added(a) : a < b;
 }
 
 // Do all of the cell's solutions lie in a box that comes before its own? That box's cells hold them, too.
 bool SignCells::is_covered_before(const SignCell& cell) const {
   bool covered = false;
-  boxes_->for_each_overlapping(cell.sides, 0.0, [&](std::size_t b) {
+  boxes_.for_each_overlapping(cell.sides, 0.0, [&](std::size_t b) {
     if (covered || !comes_before(static_cast<int>(b), cell.box)) return;
     const CoverBox& other = cover_.boxes[b];
-    const Box& other_region = cover_.regions[static_cast<std::size_t>(other.region)];
-    for (std::size_t j = 0; j < cell.sides.size(); ++j)
-      if (!other_region[j].contains(cell.sides[j])) return;
-    for (const int f : other.free)
-      if (!other.box[static_cast<std::size_t>(f)].contains(cell.sides[static_cast<std::size_t>(f)])) return;
-    covered = true;
+    covered = contains(cover_.regions[other.region], cell.sides) && contains_over(other.free, other.box, cell.sides);
   });
   return covered;
 }
 
-const Box& SignCells::region(const SignCell& cell) const {
-  return cover_.regions[static_cast<std::size_t>(cover_.boxes[static_cast<std::size_t>(cell.box)].region)];
-}
+const Box& SignCells::region(const SignCell& cell) const { return cover_.regions[cover_.boxes[cell.box].region]; }
 
 void SignCells::evaluate(SignCell& cell) {
   proof_.bound(cell, 2);
@@ -114,9 +99,14 @@ SignCell SignCells::cell_over(const SignCell& cell, Box sides) {
   return result;
 }
 
+Box SignCells::solution_over_middle(const SignCell& cell, const Box& box) {
+  Box at = cell.sides;
+  for (const int f : cell.free) at[f] = Interval(box[f].mid());
+  return solution_over(cell, std::move(at));
+}
+
 bool SignCells::is_outside(const SignCell& cell) const {
-  return std::any_of(cell.mixed.begin(), cell.mixed.end(),
-                     [&](int k) { return is_limit(k) && cell.range[static_cast<std::size_t>(k)].hi() <= 0; }) ||
+  return std::any_of(cell.mixed.begin(), cell.mixed.end(), [&](int k) { return is_limit(k) && cell.range[k].hi() <= 0; }) ||
          std::any_of(cell.range.end() - limits_, cell.range.end(), [](const Interval& g) { return g.hi() < 0; });
 }
 
@@ -124,7 +114,7 @@ std::size_t SignCells::choice(const SignCell& cell, const std::vector<int>& sign
   std::size_t result = 0, bit = 1;
   for (const int k : cell.mixed) {
     if (is_limit(k)) continue;
-    if (signs[static_cast<std::size_t>(k)] > 0) result |= bit;
+    if (signs[k] > 0) result |= bit;
     bit *= 2;
   }
   return result;
@@ -138,7 +128,7 @@ std::vector<std::vector<int>> SignCells::choices(const SignCell& cell) const {
   std::vector<std::vector<int>> result;
   if (open.size() > 2) return result;
   for (std::size_t number = 0; number < std::size_t{1} << open.size(); ++number) {
-    for (std::size_t k = 0; k < open.size(); ++k) signs[static_cast<std::size_t>(open[k])] = (number >> k & 1) != 0 ? 1 : -1;
+    for (std::size_t k = 0; k < open.size(); ++k) signs[open[k]] = (number >> k & 1) != 0 ? 1 : -1;
     result.push_back(signs);
   }
   return result;
@@ -147,9 +137,7 @@ std::vector<std::vector<int>> SignCells::choices(const SignCell& cell) const {
 std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) const {
   std::vector<std::vector<double>> result;
   const std::vector<int>& frees = cell.free;
-  const auto width = [&](std::size_t f) {
-    return cover_.boxes[static_cast<std::size_t>(cell.box)].box[static_cast<std::size_t>(frees[f])].width();
-  };
+  const auto width = [&](std::size_t f) { return cover_.boxes[cell.box].box[frees[f]].width(); };
   for (std::size_t a = 0; a < frees.size(); ++a) {
     std::vector<double> d(frees.size(), 0.0);
     d[a] = width(a);
@@ -233,15 +221,15 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
   std::size_t best = 0;
   double most = -1;
   for (std::size_t f = 0; f < frees.size(); ++f) {
-    const auto j = static_cast<std::size_t>(frees[f]);
+    const std::size_t j = frees[f];
     const double width = cell.sides[j].width();
     double variation = known ? 0 : width / system_.variables[j].size;
     if (known)
       for (std::size_t k = 0; k < s.size(); ++k)
-        variation = std::max(variation, s[k][f].mag() * width / sizes_[static_cast<std::size_t>(cell.mixed[k])]);
+        variation = std::max(variation, s[k][f].mag() * width / sizes_[cell.mixed[k]]);
     if (variation > most) most = variation, best = f;
   }
-  const auto j = static_cast<std::size_t>(frees[best]);
+  const std::size_t j = frees[best];
   const Interval side = cell.sides[j];
   const double cut = side.lo() + 0.47 * (side.hi() - side.lo());
   if (!(side.lo() < cut && cut < side.hi())) return std::nullopt;
@@ -269,14 +257,11 @@ bool SignCells::has_known_parts(SignCell& cell) {
 std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
   std::vector<std::size_t> cells;
   std::vector<std::vector<std::size_t>> result;
-  std::vector<const Box*> sides;
   for (std::size_t c = 0; c < cells_.size(); ++c)
-    if (cells_[c].resolved && (cells_[c].mixed.size() > 1 || has_convex_limit(cells_[c])) && !has_known_parts(cells_[c])) {
+    if (cells_[c].resolved && (cells_[c].mixed.size() > 1 || has_convex_limit(cells_[c])) && !has_known_parts(cells_[c]))
       cells.push_back(c);
-      sides.push_back(&cells_[c].sides);
-    }
-  if (cells.empty()) return result;
-  const std::vector<std::size_t> group = BoxTree(sides, sides.front()->size()).groups(0, {});
+  const auto sides_of = [&](std::size_t c) -> const Box& { return cells_[c].sides; };
+  const std::vector<std::size_t> group = box_tree(cells, sides_of).groups(0, {});
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t k = 0; k < cells.size(); ++k) members[group[k]].push_back(cells[k]);
   for (const auto& [number, list] : members) {
@@ -290,19 +275,15 @@ std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
 // One whose region holds all of the cells' solutions.
 std::optional<SignCell> SignCells::sheet_over(const std::vector<std::size_t>& cells) {
   Box hull = cells_[cells.front()].sides;
-  for (const std::size_t c : cells)
-    for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cells_[c].sides[j]);
+  for (const std::size_t c : cells) include(hull, cells_[c].sides);
   double radius = 0;
   for (std::size_t j = 0; j < hull.size(); ++j) radius = std::max(radius, hull[j].width() / proof_.compiled().scales()[j]);
   certify::Sheet sheet = test_.sheet_about(hull, radius);
-  if (!sheet.proven) return std::nullopt;
-  for (std::size_t j = 0; j < hull.size(); ++j)
-    if (!sheet.region[j].contains(hull[j])) return std::nullopt;
+  if (!sheet.proven || !contains(sheet.region, hull)) return std::nullopt;
   CoverBox box;
   box.box = std::move(sheet.image);
   box.verdict = Verdict::regular;
-  for (int j = 0; j < system_.size(); ++j)
-    if (std::find(sheet.dependent.begin(), sheet.dependent.end(), j) == sheet.dependent.end()) box.free.push_back(j);
+  box.free = solve::other_variables(sheet.dependent, system_.size());
   box.region = static_cast<int>(cover_.regions.size());
   cover_.regions.push_back(std::move(sheet.region));
   cover_.boxes.push_back(std::move(box));
@@ -345,7 +326,7 @@ void SignCells::refine(int halvings, int rounds, solve::Control& control) {
     }
     if (touching.empty()) return;
     std::sort(touching.begin(), touching.end());
-    index_boxes();
+    boxes_ = box_tree(cover_.boxes, &CoverBox::box);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       std::optional<std::vector<SignCell>> parts;
       const bool asked = std::binary_search(touching.begin(), touching.end(), c);

@@ -2,21 +2,26 @@
 // set without the functions' zeros are counted on them. Here cells are divided until one of the lemmas holds.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "corank/analyze/components.h"
 #include "corank/certify/meeting.h"
 #include "corank/certify/sign_cell.h"
-
-namespace corank {
-class BoxTree;
-}
+#include "corank/core/box_tree.h"
+#include "corank/solve/control.h"
 
 namespace corank::analyze {
+
+/// All of its solutions lie on one sheet, which may go on beyond the domain.
+inline bool is_sheet(const CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::boundary; }
+
+/// Of these variables alone: each side of `inner` is in that of `outer`.
+inline bool contains_over(const std::vector<int>& variables, const Box& outer, const Box& inner) {
+  return std::all_of(variables.begin(), variables.end(), [&](int j) { return outer[j].contains(inner[j]); });
+}
 
 /// The free sides are X_F.
 struct SignCell : certify::SheetCell {
@@ -29,7 +34,7 @@ struct SignCell : certify::SheetCell {
   std::optional<bool> known_parts{};  ///< does lemma 4 hold for each choice of signs? Once it was asked
 };
 
-/// Cells of a complete cover all of whose boxes are `regular` or `boundary`. Where the set ends, its limits (limits.h) are
+/// Cells of a complete cover all of whose boxes are sheets. Where the set ends, its limits (limits.h) are
 /// functions, too, of which only the positive sign counts: the pieces are those strictly within. Lemma 3 holds there as
 /// well: along d the limits grow, so that the border of X_F is reached strictly within them, where S goes on.
 class SignCells {
@@ -64,15 +69,14 @@ class SignCells {
       common &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[choice(c)] : 0;
     return common;
   }
-  const std::vector<int>& free(const SignCell& cell) const { return cell.free; }
   const Box& region(const SignCell& cell) const;
 
   /// The part of a cell's sheet over other free sides, with its ranges.
   SignCell cell_over(const SignCell& cell, Box sides);
-  /// 1: all of the cell is in the part of these signs; −1: nothing of it is; 0: not known.
-  static int holds(const SignCell& cell, const std::vector<int>& signs) { return certify::SignCellTest::holds(cell, signs); }
   /// Where the free sides are points of X_F: encloses the sheet's solution over them, as narrow as a few steps make it.
   Box solution_over(const SignCell& cell, Box sides) { return proof_.solution_over(cell, std::move(sides)); }
+  /// The same over the middles of a box's free sides.
+  Box solution_over_middle(const SignCell& cell, const Box& box);
   /// Signs ±1 of the functions in the box, in which the solutions are meant; 0 where one is not known.
   std::vector<int> signs(const Box& box) const { return proof_.signs(box); }
   /// Is there for every value in `over` of the variables `free` exactly one solution in some region on which the functions
@@ -96,7 +100,6 @@ class SignCells {
   bool is_covered_before(const SignCell& cell) const;
   std::vector<std::vector<std::size_t>> touching_passages();
   std::optional<SignCell> sheet_over(const std::vector<std::size_t>& cells);
-  void index_boxes();
   bool has_known_parts(SignCell& cell);
   bool find_directions(SignCell& cell);
   void add_convex_limits(SignCell& cell, const certify::SignCellTest::Slopes& slopes);
@@ -114,7 +117,7 @@ class SignCells {
   certify::SignCellTest proof_;
   certify::MeetingTest test_;
   std::vector<SignCell> cells_;
-  std::shared_ptr<const BoxTree> boxes_;  // of the cover
+  BoxTree boxes_{{}, 0};                  // of the cover
   bool comes_before(int a, int b) const;  // of two boxes: the later one's cells may leave solutions to the other's
 };
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "corank/analyze/aspects.h"
-#include "corank/analyze/limits.h"
+#include "corank/analyze/pieces.h"
 #include "corank/analyze/topology_with_ends.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/inertia.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/exactness.h"
@@ -30,11 +30,7 @@ struct Solved {
 // `most`: ends the search after so many boxes; 0: never.
 Cover solved(const System& system, std::optional<double> sigma, const TopologyOptions& how, solve::Control& control,
              std::uint64_t most = 0) {
-  solve::Options options;
-  options.sigma = sigma;
-  options.threads = how.threads;
-  options.proof = how.certificate;
-  options.proof_of_parts = false;
+  const solve::Options options{.sigma = sigma, .threads = how.threads, .proof = how.certificate, .proof_of_parts = false};
   const solve::Prepared prepared = solve::prepare(system, options, control);
   Cover cover = solve::solve(prepared, control, most);
   if (cover.dimension == 0) solve::prove_exactly(prepared, cover, control);
@@ -54,8 +50,8 @@ class Indices {
     const Interval mu = value(n_ * n_ + m_ * n_, box);
     if (mu.contains_zero()) return kUnknown;
     certify::IntervalMatrix hessian(n_, n_), jacobian(m_, n_);
-    for (int k = 0; k < n_ * n_; ++k) hessian.entries[static_cast<std::size_t>(k)] = value(k, box);
-    for (int k = 0; k < m_ * n_; ++k) jacobian.entries[static_cast<std::size_t>(k)] = value(n_ * n_ + k, box);
+    for (int k = 0; k < n_ * n_; ++k) hessian.entries[k] = value(k, box);
+    for (int k = 0; k < m_ * n_; ++k) jacobian.entries[k] = value(n_ * n_ + k, box);
     const std::optional<certify::Inertia> inertia = certify::inertia_on_kernel(hessian, jacobian);
     if (!inertia) return kUnknown;
     return mu.lo() > 0 ? inertia->negative : inertia->positive;
@@ -78,28 +74,21 @@ class Indices {
 // The piece on whose region the configuration at a critical point lies, −1 where none is known to. The variables that both
 // systems have are found by their names: auxiliary ones stand between them.
 int piece_of(const Box& critical_point, const System& critical, const Solved& space, const Components& components) {
-  Box point;
-  for (const Variable& v : space.system.variables) {
-    const int j = critical.find(v.name);
-    if (j < 0) return -1;
-    point.push_back(critical_point[static_cast<std::size_t>(j)]);
-  }
+  const std::optional<Box> point = same_configuration(critical, critical_point, space.system);
+  if (!point) return kUnknown;
   for (std::size_t i = 0; i < space.cover.boxes.size(); ++i) {
     const CoverBox& box = space.cover.boxes[i];
-    if (box.verdict != Verdict::regular) continue;
-    const Box& region = space.cover.regions[static_cast<std::size_t>(box.region)];
-    bool inside = true;
-    for (std::size_t j = 0; inside && j < region.size(); ++j) inside = region[j].contains(point[j]);
-    if (inside) return components.piece_of_box[i];
+    if (box.verdict == Verdict::regular && contains(space.cover.regions[box.region], *point))
+      return components.piece_of_box[i];
   }
-  return -1;
+  return kUnknown;
 }
 
 HeightCount count_critical_points(const study::Question& question, int height, const Solved& space,
                                   const Components& components, const TopologyOptions& options, std::uint64_t& processed,
                                   solve::Control& control) {
   HeightCount result;
-  result.by_index.assign(static_cast<std::size_t>(space.cover.dimension) + 1, 0);
+  result.by_index.assign(space.cover.dimension + 1, 0);
   const symbolic::CriticalPoints critical = symbolic::critical_points(question.model, height);
   System system;
   std::optional<Indices> indices;
@@ -112,18 +101,12 @@ HeightCount count_critical_points(const study::Question& question, int height, c
   }
   Cover cover = solved(system, std::nullopt, options, control, options.most_for_a_height);
   processed += cover.statistics.processed;
-  if (!cover.complete()) {
-    result.problem = "the search for critical points was ended by a limit";
-    return result;
-  }
-  if (!holds_points_only(cover)) {
-    result.problem = "critical points that are not isolated";
-    return result;
-  }
+  result.problem = problem_of_points(cover);
+  if (!result.problem.empty()) return result;
   const UpwardRounding rounding;
   // −ξ is no solution where a·ξ > 0: where it is 0, a point may be counted twice.
   const certify::CompiledSystem compiled(system);
-  std::vector<int> euler(static_cast<std::size_t>(components.pieces), 0);
+  std::vector<int> euler(components.pieces, 0);
   bool placed = true;
   for (const CoverBox& point : cover.points) {
     const bool proven = point.verdict == Verdict::isolated || point.verdict == Verdict::exact;
@@ -135,20 +118,20 @@ HeightCount count_critical_points(const study::Question& question, int height, c
       result.problem = proven ? "a critical point that may be degenerate" : "a critical point that is not proven";
       return result;
     }
-    ++result.by_index[static_cast<std::size_t>(index)];
+    ++result.by_index[index];
     const int piece = piece_of(point.box, system, space, components);
     placed = placed && piece >= 0;
-    if (piece >= 0 && piece < components.pieces) euler[static_cast<std::size_t>(piece)] += index % 2 == 0 ? 1 : -1;
+    if (piece >= 0 && piece < components.pieces) euler[piece] += index % 2 == 0 ? 1 : -1;
   }
   if (placed) result.euler_of_piece = euler;
   if (options.certificate) result.cover = HeightCover{height, std::move(cover), result.by_index};
   return result;
 }
 
-// Components with σ as fine as it takes.
+// Components with σ as fine as it takes, from whole sheets on.
 Components refined_components(Solved& space, const TopologyOptions& options, std::uint64_t& processed,
                               solve::Control& control) {
-  double sigma = whole_sheets(space.system);
+  double sigma = solve::uncut_sigma(space.system);
   Components best;
   for (int k = 0; k <= options.refinements; ++k, sigma /= k == 1 ? 16 : 2) {
     Cover cover = solved(space.system, sigma, options, control);
@@ -207,12 +190,6 @@ void find_shape(const study::Question& question, const Solved& space, const Topo
 
 }  // namespace
 
-double whole_sheets(const System& system) {
-  double widest = 1;
-  for (const Interval& side : system.domain()) widest = std::max(widest, side.width());
-  return 2 * widest;
-}
-
 int HeightCount::points() const { return std::accumulate(by_index.begin(), by_index.end(), 0); }
 
 int HeightCount::euler_characteristic() const {
@@ -221,6 +198,8 @@ int HeightCount::euler_characteristic() const {
   return sum;
 }
 
+namespace {
+
 // Of a set that comes to ends of its domain: of what is strictly within (sign_cells.h).
 Components components_within(const System& system, const Cover& cover, const std::vector<Limit>& ends,
                              const TopologyOptions& options, solve::Control& control) {
@@ -228,9 +207,7 @@ Components components_within(const System& system, const Cover& cover, const std
   for (const Limit& end : ends) functions.push_back(end.function);
   const System whole = with_single_values(system);
   Components result;
-  const auto is_sheet = [](const CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::boundary; };
-  if (!cover.complete() || static_cast<int>(whole.equations.size()) + cover.dimension != whole.size() ||
-      !std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet)) {
+  if (!is_square_over(whole, cover.dimension) || !std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet)) {
     result.reason = "boxes that are neither regular nor at an end";
     return result;
   }
@@ -243,11 +220,9 @@ Components components_within(const System& system, const Cover& cover, const std
   return result;
 }
 
-namespace {
-
 Topology found(const study::Question& question, Solved& space, const TopologyOptions& options, solve::Control& control) {
   Topology result;
-  Cover whole = solved(space.system, whole_sheets(space.system), options, control);
+  Cover whole = solved(space.system, solve::uncut_sigma(space.system), options, control);
   result.dimension = whole.dimension;
   if (whole.complete() && whole.dimension > 0) {
     const std::vector<Limit> touched = limits(space.system, whole);
@@ -270,9 +245,7 @@ Topology found(const study::Question& question, Solved& space, const TopologyOpt
   }
   if (space.cover.boxes.empty()) result.components = refined_components(space, options, result.processed, control);
   result.dimension = space.cover.dimension;
-  const auto counts = space.cover.counts();
-  const std::size_t regular = counts[static_cast<std::size_t>(Verdict::regular)];
-  result.smooth = space.cover.complete() && result.dimension > 0 && regular == space.cover.boxes.size();
+  result.smooth = result.dimension > 0 && space.cover.count(Verdict::regular) == space.cover.boxes.size();
   if (space.cover.boxes.empty() && space.cover.complete()) {
     result.smooth = true;
     result.euler_characteristic = 0;
@@ -289,21 +262,16 @@ Topology found(const study::Question& question, Solved& space, const TopologyOpt
 
 std::shared_ptr<const Shape> certificate(const Topology& result, Solved& space, solve::Control& control) {
   if (!result.smooth || !result.ends.empty() || result.dimension < 1 || control.ended() ||
-      static_cast<int>(space.system.equations.size()) + result.dimension != space.system.size())
+      !is_square_over(space.system, result.dimension))
     return nullptr;
-  Shape shape;
-  shape.at_least = result.components.at_least;
-  shape.at_most = result.components.at_most;
-  shape.euler_characteristic = result.euler_characteristic;
-  shape.genus = result.genus;
-  for (const HeightCount& h : result.heights) shape.heights.push_back(h.cover.value());
-  Components linked = result.components;
+  std::vector<HeightCover> heights;
+  for (const HeightCount& h : result.heights) heights.push_back(h.cover.value());
+  const Components& counted = result.components;
   // They may have been counted on cells.
-  if (linked.pieces == 0) linked = components(space.system, space.cover, control);
-  shape.links = std::move(linked.links);
-  shape.bridges = std::move(linked.bridges);
-  shape.space = std::move(space.cover);
-  return std::make_shared<const Shape>(std::move(shape));
+  Components linked = counted.pieces > 0 ? counted : components(space.system, space.cover, control);
+  return std::make_shared<const Shape>(Shape{std::move(space.cover), std::move(linked.bridges), std::move(linked.links),
+                                             std::move(heights), counted.at_least, counted.at_most,
+                                             result.euler_characteristic, result.genus});
 }
 
 }  // namespace

@@ -6,8 +6,9 @@
 #include <memory>
 #include <set>
 
-#include "corank/analyze/aspects.h"
+#include "corank/analyze/pieces.h"
 #include "corank/certify/stratum.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/exactness.h"
@@ -40,9 +41,8 @@ StrataCount count_on_strata(const certify::Strata& strata, const TopologyOptions
                             solve::Control& control) {
   StrataCount result;
   HeightCount& height = result.height;
-  height.by_index.assign(static_cast<std::size_t>(strata.dimension()) + 1, 0);
-  solve::Options search;
-  search.threads = options.threads;
+  height.by_index.assign(strata.dimension() + 1, 0);
+  const solve::Options search{.threads = options.threads};
   for (const std::vector<int>& ends : strata.strata()) {
     const auto stratum = [&] {
       const UpwardRounding rounding;
@@ -51,15 +51,9 @@ StrataCount count_on_strata(const certify::Strata& strata, const TopologyOptions
     const solve::Prepared prepared = solve::prepare(stratum.system, search, control);
     Cover cover = solve::solve(prepared, control, options.most_for_a_height);
     processed += cover.statistics.processed;
-    if (!cover.complete()) {
-      height.problem = "the search for critical points was ended by a limit";
-      return result;
-    }
-    solve::prove_exactly(prepared, cover, control);
-    if (!holds_points_only(cover)) {
-      height.problem = "critical points that are not isolated";
-      return result;
-    }
+    if (cover.complete()) solve::prove_exactly(prepared, cover, control);
+    height.problem = problem_of_points(cover);
+    if (!height.problem.empty()) return result;
     const UpwardRounding rounding;
     const certify::StratumTest test(strata, stratum);
     for (const CoverBox& point : cover.points) {
@@ -71,7 +65,7 @@ StrataCount count_on_strata(const certify::Strata& strata, const TopologyOptions
         return result;
       }
       if (kind->counted())
-        ++height.by_index[static_cast<std::size_t>(kind->index)];
+        ++height.by_index[kind->index];
       else
         ++height.uncounted;
       const int on_boundary = sign_on_boundary(*kind);
@@ -96,18 +90,15 @@ class EdgePieces {
   EdgePieces(const certify::Strata& strata, int end, const std::vector<Limit>& ends, const TopologyOptions& options,
              std::uint64_t& processed, solve::Control& control)
       : system_(with_single_values(strata.edge(end))) {
-    solve::Options search;
-    search.threads = options.threads;
-    search.sigma = whole_sheets(system_);
+    const solve::Options search{.sigma = solve::uncut_sigma(system_), .threads = options.threads};
     const Cover cover = solve::solve(solve::prepare(strata.edge(end), search, control), control);
     processed += cover.statistics.processed;
-    const auto sheet = [](const CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::boundary; };
     if (!cover.complete() || (!cover.boxes.empty() && cover.dimension != 1) ||
-        !std::all_of(cover.boxes.begin(), cover.boxes.end(), sheet))
+        !std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet))
       return;
     std::vector<Polynomial> functions;
     for (int k = 0; k < static_cast<int>(ends.size()); ++k)
-      if (k != end) others_.push_back(k), functions.push_back(ends[static_cast<std::size_t>(k)].function);
+      if (k != end) others_.push_back(k), functions.push_back(ends[k].function);
     // Beyond whatever end this cover's boxes touch a `boundary` box's sheet may go on.
     for (Limit& limit : limits(strata.edge(end), cover))
       if (std::none_of(functions.begin(), functions.end(), [&](const Polynomial& f) { return same(f, limit.function); }))
@@ -116,7 +107,7 @@ class EdgePieces {
       count_ = 0;
       return;
     }
-    if (static_cast<int>(system_.equations.size()) + 1 != system_.size()) return;
+    if (!is_square_over(system_, 1)) return;
     cells_.emplace(system_, cover, std::vector<Polynomial>{}, functions);
     cells_->refine(options.halvings, options.rounds, control);
     pieces_ = pieces(*cells_, control);
@@ -133,12 +124,8 @@ class EdgePieces {
     for (const Pieces::Part& part : pieces_.parts) {
       const SignCell& cell = cells_->cells()[part.cell];
       if (cell.mixed != std::vector<int>{static_cast<int>(place)}) continue;
-      const Box& region = cells_->region(cell);
-      bool inside = true;
-      for (std::size_t j = 0; inside && j < region.size(); ++j) inside = region[j].contains(corner[j]);
-      for (const int f : cells_->free(cell))
-        inside = inside && cell.sides[static_cast<std::size_t>(f)].contains(corner[static_cast<std::size_t>(f)]);
-      if (inside && cells_->part_of_one(cell, part.signs[static_cast<std::size_t>(place)]) == 1) return part.piece;
+      const bool inside = contains(cells_->region(cell), corner) && contains_over(cell.free, cell.sides, corner);
+      if (inside && cells_->part_of_one(cell, part.signs[place]) == 1) return part.piece;
     }
     return std::nullopt;
   }
@@ -160,22 +147,21 @@ std::optional<int> boundary_curves(const certify::Strata& strata, const std::vec
   for (int k = 0; k < static_cast<int>(ends.size()); ++k) {
     edges.push_back(std::make_unique<EdgePieces>(strata, k, ends, options, processed, control));
     if (!edges.back()->count()) {
-      reason = "the boundary's pieces at the " + ends[static_cast<std::size_t>(k)].name + " could not be counted";
+      reason = "the boundary's pieces at the " + ends[k].name + " could not be counted";
       return std::nullopt;
     }
     first.push_back(all);
-    all += static_cast<std::size_t>(*edges.back()->count());
+    all += *edges.back()->count();
   }
   boost::disjoint_sets_with_storage<> classes(all);
-  for (std::size_t p = 0; p < all; ++p) classes.make_set(p);
   for (const Corner& corner : corners) {
-    const auto a = static_cast<std::size_t>(corner.first), b = static_cast<std::size_t>(corner.second);
+    const std::size_t a = corner.first, b = corner.second;
     const auto p = edges[a]->piece_at(corner.point, corner.second), q = edges[b]->piece_at(corner.point, corner.first);
     if (!p || !q) {
       reason = "a corner on no known piece of the boundary";
       return std::nullopt;
     }
-    classes.union_set(first[a] + static_cast<std::size_t>(*p), first[b] + static_cast<std::size_t>(*q));
+    classes.union_set(first[a] + *p, first[b] + *q);
   }
   std::set<std::size_t> found;
   for (std::size_t p = 0; p < all; ++p) found.insert(classes.find_set(p));
@@ -191,10 +177,13 @@ std::optional<int> only_possible(int euler, int minima) {
 
 }  // namespace
 
-bool holds_points_only(const Cover& cover) {
-  return cover.dimension == 0 && std::all_of(cover.boxes.begin(), cover.boxes.end(), [](const CoverBox& box) {
-           return box.motion < 0 && box.free.empty() && box.reason != Reason::degenerate_set;
-         });
+std::string problem_of_points(const Cover& cover) {
+  if (!cover.complete()) return "the search for critical points was ended by a limit";
+  const auto is_point = [](const CoverBox& b) {
+    return b.motion < 0 && b.free.empty() && b.reason != Reason::degenerate_set;
+  };
+  const bool points = cover.dimension == 0 && std::all_of(cover.boxes.begin(), cover.boxes.end(), is_point);
+  return points ? "" : "critical points that are not isolated";
 }
 
 std::vector<Limit> without_unreached(const System& system, std::vector<Limit> ends, const TopologyOptions& options,
@@ -202,9 +191,7 @@ std::vector<Limit> without_unreached(const System& system, std::vector<Limit> en
   constexpr std::uint64_t kMost = 20'000;  // boxes of a search: an end that takes more counts as reached
   const certify::Strata strata(system, {ends.begin(), ends.end()}, 0);
   std::vector<Limit> reached;
-  solve::Options search;
-  search.threads = options.threads;
-  search.sigma = whole_sheets(system);
+  const solve::Options search{.sigma = solve::uncut_sigma(system), .threads = options.threads};
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const Cover cover = solve::solve(solve::prepare(strata.edge(static_cast<int>(k)), search, control), control, kMost);
     processed += cover.statistics.processed;

@@ -8,11 +8,9 @@ namespace corank::analyze {
 
 inline constexpr int kHeights = 6;  ///< that are tried for two which say something
 
-/// A σ that is wider than every sheet: they are not cut.
-double whole_sheets(const System& system);
-
-/// Every box is counted among the cover's points: none is part of a larger set, or may be.
-bool holds_points_only(const Cover& cover);
+/// Why nothing follows from a search for critical points: it was ended, or some box may be part of a larger set, and is not
+/// counted among the cover's points. Else empty.
+std::string problem_of_points(const Cover& cover);
 
 /// Without those ends at which a search finds no solution: all solutions are strictly within them.
 std::vector<Limit> without_unreached(const System& system, std::vector<Limit> ends, const TopologyOptions& options,

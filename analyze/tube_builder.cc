@@ -35,7 +35,7 @@ std::optional<TubeBuilder::Node> TubeBuilder::node(const PathSpace::Point& x, co
   const Eigen::VectorXd c = result.across * x;
   for (Eigen::Index i = 0; i < result.across.rows(); ++i)
     for (Eigen::Index j = 0; j < result.across.cols(); ++j)
-      result.node.rows.push_back(result.across(i, j) / space_.sizes()[static_cast<std::size_t>(j)]);
+      result.node.rows.push_back(result.across(i, j) / space_.sizes()[j]);
   result.node.values = {c.data(), c.data() + c.size()};
   const UpwardRounding rounding;
   const auto box = prover_.node(result.node.rows, result.node.values, space_.values(x));

@@ -6,6 +6,7 @@
 
 #include "corank/certify/domain.h"
 #include "corank/certify/newton.h"
+#include "corank/certify/reduction.h"
 #include "corank/solve/preconditioner.h"
 
 namespace corank::analyze {
@@ -16,6 +17,10 @@ struct Witness {
   certify::Sheet sheet;
   std::vector<int> free;
 };
+
+/// The box in all variables of the system that was reduced. `compiled`: begins with the reduced system's variables; its
+/// values are those of the eliminated ones (solve::values_of).
+Box lifted(const certify::CompiledSystem& compiled, const certify::Reduction& reduction, const Box& x);
 
 /// Near the point; nothing where it cannot be proven.
 std::optional<Witness> prove_near(const certify::CompiledSystem& system, const certify::DomainTest& domain,

@@ -49,10 +49,10 @@ class Measure {
       : system_(with_implied_sides(std::move(system))),
         compiled_(system_),
         domain_(system_),
-        x_(static_cast<std::size_t>(x)),
-        y_(static_cast<std::size_t>(y)),
-        n_(system_.variables.size()),
-        m_(system_.equations.size()) {}
+        x_(x),
+        y_(y),
+        n_(system_.size()),
+        m_(static_cast<int>(system_.equations.size())) {}
 
   Cell whole() {
     Cell cell{{}, {}, {system_.domain()}};
@@ -75,7 +75,7 @@ class Measure {
       const auto largest = std::max_element(open.begin(), open.end(), [this](const Box& a, const Box& b) {
         return a[widest(a)].width() / widths_[widest(a)] < b[widest(b)].width() / widths_[widest(b)];
       });
-      const std::size_t v = widest(*largest);
+      const int v = widest(*largest);
       const Interval side = (*largest)[v];
       const double middle = side.mid();
       if (!(side.lo() < middle && middle < side.hi())) break;
@@ -106,9 +106,9 @@ class Measure {
 
  private:
   // Of the coordinates beside the outputs, which are divided elsewhere.
-  std::size_t widest(const Box& box) const {
-    std::size_t best = n_;
-    for (std::size_t j = 0; j < n_; ++j)
+  int widest(const Box& box) const {
+    int best = n_;
+    for (int j = 0; j < n_; ++j)
       if (j != x_ && j != y_ && (best == n_ || box[j].width() / widths_[j] > box[best].width() / widths_[best])) best = j;
     return best == n_ ? x_ : best;
   }
@@ -131,12 +131,11 @@ class Measure {
   }
 
   Eigen::MatrixXd jacobian(const std::vector<double>& at) const {
-    std::vector<double> entries(static_cast<std::size_t>(compiled_.entries()));
+    std::vector<double> entries(compiled_.entries());
     compiled_.approximate_jacobian(at.data(), entries.data());
-    Eigen::MatrixXd j = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(m_), static_cast<Eigen::Index>(n_));
-    for (int row = 0; row < static_cast<int>(m_); ++row)
-      for (int k = compiled_.row_begin(row); k < compiled_.row_begin(row + 1); ++k)
-        j(row, compiled_.column(k)) = entries[static_cast<std::size_t>(k)];
+    Eigen::MatrixXd j = Eigen::MatrixXd::Zero(m_, n_);
+    for (int row = 0; row < m_; ++row)
+      for (int k = compiled_.row_begin(row); k < compiled_.row_begin(row + 1); ++k) j(row, compiled_.column(k)) = entries[k];
     return j;
   }
 
@@ -144,38 +143,36 @@ class Measure {
   std::optional<Preconditioner> preconditioner(const std::vector<double>& at, bool any) const {
     Eigen::MatrixXd j = jacobian(at);
     if (!j.allFinite()) return std::nullopt;
-    for (std::size_t v = 0; v < n_; ++v)
-      j.col(static_cast<Eigen::Index>(v)) *= !any && (v == x_ || v == y_) ? 0 : widths_[v];
+    for (int v = 0; v < n_; ++v) j.col(v) *= !any && (v == x_ || v == y_) ? 0 : widths_[v];
     const Eigen::FullPivLU<Eigen::MatrixXd> lu(j);
-    if (lu.rank() < static_cast<Eigen::Index>(m_)) return std::nullopt;
+    if (lu.rank() < m_) return std::nullopt;
     Preconditioner p;
-    const auto m = static_cast<Eigen::Index>(m_);
-    Eigen::MatrixXd block(m, m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      p.equations.push_back(static_cast<int>(i));
+    Eigen::MatrixXd block(m_, m_);
+    for (int i = 0; i < m_; ++i) {
+      p.equations.push_back(i);
       p.dependent.push_back(static_cast<int>(lu.permutationQ().indices()(i)));
-      block.col(i) = j.col(p.dependent.back()) / widths_[static_cast<std::size_t>(p.dependent.back())];
+      block.col(i) = j.col(p.dependent.back()) / widths_[p.dependent.back()];
     }
     const Eigen::MatrixXd y = inverse(block);
     if (!y.allFinite()) return std::nullopt;
-    for (Eigen::Index i = 0; i < m; ++i)
-      for (Eigen::Index k = 0; k < m; ++k) p.y.push_back(y(i, k));
+    for (int i = 0; i < m_; ++i)
+      for (int k = 0; k < m_; ++k) p.y.push_back(y(i, k));
     return p;
   }
 
   // Gauss–Newton steps of minimal norm with the outputs fixed; nothing is proven by them.
   std::optional<std::vector<double>> solution(std::vector<double> at) const {
     for (int k = 0; k < kIterations; ++k) {
-      Eigen::VectorXd f(static_cast<Eigen::Index>(m_));
-      for (int row = 0; row < static_cast<int>(m_); ++row) f[row] = compiled_.evaluate_at(row, at.data()).mid();
+      Eigen::VectorXd f(m_);
+      for (int row = 0; row < m_; ++row) f[row] = compiled_.evaluate_at(row, at.data()).mid();
       Eigen::MatrixXd j = jacobian(at);
       if (!f.allFinite() || !j.allFinite()) return std::nullopt;
-      for (std::size_t v = 0; v < n_; ++v) j.col(static_cast<Eigen::Index>(v)) *= v == x_ || v == y_ ? 0 : widths_[v];
+      for (int v = 0; v < n_; ++v) j.col(v) *= v == x_ || v == y_ ? 0 : widths_[v];
       const Eigen::VectorXd step = least_squares(j, f).x;
       double size = 0;
-      for (std::size_t v = 0; v < n_; ++v) {
-        at[v] -= widths_[v] * step[static_cast<Eigen::Index>(v)] * (v == x_ || v == y_ ? 0 : 1);
-        size = std::max(size, std::fabs(step[static_cast<Eigen::Index>(v)]));
+      for (int v = 0; v < n_; ++v) {
+        at[v] -= widths_[v] * step[v] * (v == x_ || v == y_ ? 0 : 1);
+        size = std::max(size, std::fabs(step[v]));
       }
       if (size < 1e-12) return at;
       if (!std::isfinite(size)) return std::nullopt;
@@ -195,21 +192,19 @@ class Measure {
     for (const double value : *sample) box.emplace_back(value);
     box[x_] = cell.x, box[y_] = cell.y;
     const Eigen::MatrixXd j = jacobian(*sample);
-    const auto m = static_cast<Eigen::Index>(m_);
-    for (Eigen::Index a = 0; a < m; ++a) {
-      const auto d = static_cast<std::size_t>(p->dependent[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < m_; ++a) {
+      const int d = p->dependent[a];
       double radius = 1e-9 * widths_[d];
-      for (const std::size_t v : {x_, y_}) {
+      for (const int v : {x_, y_}) {
         double slope = 0;
-        for (Eigen::Index k = 0; k < m; ++k)
-          slope += p->y[static_cast<std::size_t>(a * m + k)] * j(k, static_cast<Eigen::Index>(v));
+        for (int k = 0; k < m_; ++k) slope += p->y[a * m_ + k] * j(k, v);
         radius += std::fabs(slope) * box[v].width();
       }
       box[d] = Interval((*sample)[d] - radius, (*sample)[d] + radius);
       if (!box[d].is_bounded()) return false;
     }
     const certify::Sheet sheet = certify::newton_prove(compiled_, *p, box, workspace_);
-    if (!sheet.proven || sheet.equations.size() != m_) return false;
+    if (!sheet.proven || std::cmp_not_equal(sheet.equations.size(), m_)) return false;
     return domain_.locate(compiled_, sheet.image) == certify::Location::inside;
   }
 
@@ -217,7 +212,7 @@ class Measure {
   CompiledSystem compiled_;
   certify::DomainTest domain_;
   certify::NewtonWorkspace workspace_;
-  std::size_t x_, y_, n_, m_;
+  const int x_, y_, n_, m_;
   std::vector<double> widths_;
 };
 

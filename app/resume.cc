@@ -10,7 +10,7 @@
 
 #include "corank/app/exit_status.h"
 #include "corank/result/result_file.h"
-#include "corank/solve/engine_version.h"
+#include "corank/solve/shard_bytes.h"
 #include "corank/symbolic/text_file.h"
 
 namespace corank::app {

@@ -22,6 +22,13 @@ inline bool contains(std::span<const Interval> outer, std::span<const Interval> 
                     [](const Interval& out, const Interval& in) { return out.contains(in); });
 }
 
+/// Each side of the first box becomes what it has in common with the other's, as long as there is something.
+inline bool intersect(std::span<Interval> box, std::span<const Interval> other) {
+  for (std::size_t j = 0; j < box.size(); ++j)
+    if (!box[j].intersect(other[j])) return false;
+  return true;
+}
+
 /// Interval::mid() of each side.
 inline std::vector<double> midpoint(std::span<const Interval> box) {
   std::vector<double> middle;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,15 @@ class BoxTree {
   std::vector<Node> nodes_;
   std::vector<Interval> bounds_;
 };
+
+/// Of the boxes that belong to some things, each with all its sides. `box_of` returns a reference, or is a member.
+template <class Things, class BoxOf>
+BoxTree box_tree(const Things& things, BoxOf box_of) {
+  std::vector<const Box*> boxes;
+  for (const auto& thing : things) boxes.push_back(&std::invoke(box_of, thing));
+  const std::size_t sides = boxes.empty() ? 0 : boxes.front()->size();
+  return BoxTree(std::move(boxes), sides);
+}
 
 /// Boxes that come one by one: trees of 1, 2, 4 … boxes, joined as the digits of a binary counter.
 class GrowingBoxTree {

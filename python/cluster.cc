@@ -10,7 +10,7 @@
 #include <algorithm>
 
 #include "corank/result/checkpoint.h"
-#include "corank/solve/engine_version.h"
+#include "corank/solve/shard_bytes.h"
 #include "corank/study/spread_run.h"
 
 namespace corank::python {

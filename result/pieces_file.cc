@@ -26,25 +26,20 @@ symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model) {
 
 std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model, const PiecesFile& file) {
   const symbolic::TrigonometricSystem equations = equations_of(model);
+  const symbolic::Loci loci = symbolic::singularity_loci(model);
   std::array<PolynomialMatrix, 2> matrices;
-  std::array<std::vector<symbolic::Expression>, 2> factors;
-  for (const auto& [k, set] : {std::pair(0U, symbolic::SingularitySet::forward), {1U, symbolic::SingularitySet::inverse}}) {
-    const symbolic::ExpressionMatrix m = symbolic::kernel_question(model, set, symbolic::KernelSide::left).matrix;
-    factors[k] = symbolic::determinant_factors(model, m);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const symbolic::ExpressionMatrix& m = loci.matrices[k];
     matrices[k].rows = matrices[k].columns = static_cast<int>(m.rows.size());
     for (const auto& row : m.rows)
       for (Polynomial& f : symbolic::polynomials(equations, row)) matrices[k].entries.push_back(std::move(f));
   }
-  std::vector<symbolic::Expression> both = factors[0];
-  for (const auto& e : factors[1])
-    if (std::none_of(factors[0].begin(), factors[0].end(), [&](const auto& f) { return same_tree(e, f); }))
-      both.push_back(e);
   const auto list = [&](const PieceClaims& claims, const std::vector<symbolic::Expression>& own) {
     std::vector<symbolic::Expression> named;
     for (const std::string& text : claims.factors) named.push_back(symbolic::parse_expression(text, "a factor"));
     return check::PieceFunctions{symbolic::polynomials(equations, named), symbolic::polynomials(equations, own), matrices};
   };
-  return {list(file.lists[0], both), list(file.lists[1], factors[0]), list(file.lists[2], factors[1])};
+  return {list(file.lists[0], loci.all_factors), list(file.lists[1], loci.factors[0]), list(file.lists[2], loci.factors[1])};
 }
 
 std::string list_group(std::size_t list) { return std::string("/") + kLists[list]; }

@@ -6,7 +6,6 @@
 
 #include "corank/core/rounding.h"
 #include "corank/solve/gathering.h"
-#include "corank/solve/merging.h"
 #include "corank/solve/points.h"
 
 namespace corank::solve {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <boost/functional/hash.hpp>
 #include <tuple>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace corank::solve {
 template <class Variables>
 bool before(const CoverBox& a, const CoverBox& b, const Variables& variables) {
   for (const auto v : variables) {
-    const Interval &x = a.box[static_cast<std::size_t>(v)], &y = b.box[static_cast<std::size_t>(v)];
+    const Interval &x = a.box[v], &y = b.box[v];
     if (x.lo() != y.lo()) return x.lo() < y.lo();
     if (x.hi() != y.hi()) return x.hi() < y.hi();
   }
@@ -26,6 +27,16 @@ inline bool before(const Box& a, const Box& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
     return std::pair(x.lo(), x.hi()) < std::pair(y.lo(), y.hi());
   });
+}
+
+/// Of the box's sides.
+inline std::size_t hash(const Box& box) {
+  std::size_t seed = 0;
+  for (const Interval& side : box) {
+    boost::hash_combine(seed, side.lo());
+    boost::hash_combine(seed, side.hi());
+  }
+  return seed;
 }
 
 }  // namespace corank::solve

@@ -1,9 +1,6 @@
-// Plain values as bytes for cereal: little-endian on every machine, and a reader that is never made to allocate much more
-// than it was given.
+// Plain values as bytes for cereal, little-endian, and a reader that is never made to allocate much more than it was given.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cereal/cereal.hpp>
 #include <cstring>
@@ -14,34 +11,11 @@
 
 namespace corank::solve {
 
-template <class T>
-T little_endian(T value) {
-  if constexpr (std::endian::native == std::endian::big && sizeof(T) > 1) {
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), &value, sizeof(T));
-    std::reverse(bytes.begin(), bytes.end());
-    std::memcpy(&value, bytes.data(), sizeof(T));
-  }
-  return value;
-}
+static_assert(std::endian::native == std::endian::little, "numbers are written as this machine keeps them");
 
 class ByteOutput : public cereal::OutputArchive<ByteOutput, cereal::AllowEmptyClassElision> {
  public:
   explicit ByteOutput(std::ostream& out) : OutputArchive(this), buffer_(*out.rdbuf()) {}
-  template <class T>
-  void number(T value) {
-    value = little_endian(value);
-    if (buffer_.sputn(reinterpret_cast<const char*>(&value), sizeof(T)) != sizeof(T))
-      throw ShardError("a part of a search cannot be written");
-  }
-  template <class T>
-  void numbers(const T* values, std::uint64_t bytes) {
-    if constexpr (std::endian::native == std::endian::little) {
-      block(values, bytes);
-    } else {
-      for (std::uint64_t i = 0; i < bytes / sizeof(T); ++i) number(values[i]);
-    }
-  }
   void block(const void* bytes, std::uint64_t count) {
     const auto size = static_cast<std::streamsize>(count);
     if (buffer_.sputn(static_cast<const char*>(bytes), size) != size)
@@ -59,13 +33,10 @@ class ByteInput : public cereal::InputArchive<ByteInput, cereal::AllowEmptyClass
   void number(T& value) {
     need(sizeof(T));
     std::memcpy(&value, rest_.data(), sizeof(T));
-    value = little_endian(value);
     rest_.remove_prefix(sizeof(T));
   }
-  template <class T>
-  void numbers(T* values, std::uint64_t bytes) {
-    need(bytes);
-    for (std::uint64_t i = 0; i < bytes / sizeof(T); ++i) number(values[i]);
+  void block(void* bytes, std::uint64_t count) {
+    if (count > 0) std::memcpy(bytes, take(count, 1).data(), count);
   }
   /// The next bytes as they are: so many rows.
   std::string_view take(std::uint64_t rows, std::uint64_t row) {
@@ -86,7 +57,7 @@ class ByteInput : public cereal::InputArchive<ByteInput, cereal::AllowEmptyClass
 
 template <class T, cereal::traits::EnableIf<std::is_arithmetic_v<T>> = cereal::traits::sfinae>
 void CEREAL_SAVE_FUNCTION_NAME(ByteOutput& archive, const T& value) {
-  archive.number(value);
+  archive.block(&value, sizeof(T));
 }
 template <class T, cereal::traits::EnableIf<std::is_arithmetic_v<T>> = cereal::traits::sfinae>
 void CEREAL_LOAD_FUNCTION_NAME(ByteInput& archive, T& value) {
@@ -100,20 +71,18 @@ inline void CEREAL_LOAD_FUNCTION_NAME(ByteInput& archive, bool& value) {
 }
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(ByteOutput& archive, const cereal::BinaryData<T>& data) {
-  using Element = std::remove_cv_t<std::remove_pointer_t<std::remove_reference_t<T>>>;
-  archive.numbers(static_cast<const Element*>(data.data), data.size);
+  archive.block(data.data, data.size);
 }
 template <class T>
 void CEREAL_LOAD_FUNCTION_NAME(ByteInput& archive, cereal::BinaryData<T>& data) {
-  using Element = std::remove_cv_t<std::remove_pointer_t<std::remove_reference_t<T>>>;
-  archive.numbers(static_cast<Element*>(data.data), data.size);
+  archive.block(data.data, data.size);
 }
 template <class Archive, class T>
 requires std::is_same_v<Archive, ByteOutput> || std::is_same_v<Archive, ByteInput>
 void CEREAL_SERIALIZE_FUNCTION_NAME(Archive& archive, cereal::NameValuePair<T>& pair) { archive(pair.value); }
 template <class T>
 void CEREAL_SAVE_FUNCTION_NAME(ByteOutput& archive, const cereal::SizeTag<T>& tag) {
-  archive.number(static_cast<std::uint64_t>(tag.size));
+  archive(static_cast<std::uint64_t>(tag.size));
 }
 template <class T>
 void CEREAL_LOAD_FUNCTION_NAME(ByteInput& archive, cereal::SizeTag<T>& tag) {

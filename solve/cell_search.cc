@@ -30,7 +30,7 @@ CellSearch::CellSearch(const Problem& problem, std::vector<int> parameters)
 }
 
 void CellSearch::put_in(const Box& sides, Box& x) const {
-  for (std::size_t k = 0; k < parameters_.size(); ++k) x[static_cast<std::size_t>(parameters_[k])] = sides[k];
+  for (std::size_t k = 0; k < parameters_.size(); ++k) x[parameters_[k]] = sides[k];
 }
 
 ParameterCell CellSearch::whole(const Box& sides, const Box& domain) const {
@@ -42,7 +42,7 @@ ParameterCell CellSearch::whole(const Box& sides, const Box& domain) const {
 ParameterCell CellSearch::part(const ParameterCell& cell, const Box& sides) {
   ParameterCell part{sides, {}, cell.open};
   for (Box& x : part.open) put_in(sides, x);
-  Box box(static_cast<std::size_t>(problem_.compiled.variables()));
+  Box box(problem_.compiled.variables());
   put_in(sides, box);
   for (const certify::Sheet& sheet : cell.sheets)
     part.sheets.push_back(certify::restricted(problem_.compiled, sheet, box, workspace_));
@@ -82,16 +82,15 @@ std::vector<double> CellSearch::limits(const Box& x, double share) {
   std::vector<double> moves(scales.size(), 0);
   double most = kFinest;  // of the typical sizes
   for (int a = 0; a < p.rank(); ++a) {
-    const auto j = static_cast<std::size_t>(p.dependent[static_cast<std::size_t>(a)]);
-    for (const int k : parameters_)
-      moves[j] += std::fabs(preconditioners_.sensitivity(a, k)) * x[static_cast<std::size_t>(k)].width();
+    const std::size_t j = p.dependent[a];
+    for (const int k : parameters_) moves[j] += std::fabs(preconditioners_.sensitivity(a, k)) * x[k].width();
     most = std::max(most, moves[j] / scales[j]);
   }
   for (const int d : p.dependent) {
-    const auto j = static_cast<std::size_t>(d);
+    const std::size_t j = d;
     limits[j] = std::min(limits[j], kFollow * std::max(moves[j], kLeastShare * most * scales[j]));
   }
-  for (const int k : parameters_) limits[static_cast<std::size_t>(k)] = std::numeric_limits<double>::infinity();
+  for (const int k : parameters_) limits[k] = std::numeric_limits<double>::infinity();
   return limits;
 }
 
@@ -123,13 +122,13 @@ bool CellSearch::refine(ParameterCell& cell, double share, std::uint64_t most, C
       case Outcome::open: break;
     }
     const int split = problem_.branching.choose(problem_.compiled, x, limits(x, share));
-    const std::optional<double> at = split < 0 ? std::nullopt : split_point(x[static_cast<std::size_t>(split)]);
+    const std::optional<double> at = split < 0 ? std::nullopt : split_point(x[split]);
     if (!at) {
       cell.open.push_back(std::move(x));
       continue;
     }
     Box upper = x;
-    const auto j = static_cast<std::size_t>(split);
+    const std::size_t j = split;
     upper[j] = Interval(*at, x[j].hi());
     x[j] = Interval(x[j].lo(), *at);
     waiting.push_back(std::move(upper));
@@ -142,11 +141,6 @@ std::optional<std::vector<std::size_t>> CellSearch::solutions(ParameterCell& cel
   CORANK_CHECK(UpwardRounding::active());
   if (!cell.open.empty() || !certify::keep_distinct(problem_.compiled, cell.sheets, workspace_)) return std::nullopt;
   return certify::sheets_inside(problem_.compiled, problem_.domain, cell.sheets, workspace_);
-}
-
-std::optional<int> CellSearch::count(ParameterCell& cell) {
-  const auto inside = solutions(cell);
-  return inside ? std::optional(static_cast<int>(inside->size())) : std::nullopt;
 }
 
 }  // namespace corank::solve

@@ -38,10 +38,8 @@ class CellSearch {
   /// has ended: what is left then stays open. False: it has ended.
   bool refine(ParameterCell& cell, double share, std::uint64_t most, Control& control);
 
-  /// The number of solutions in the domain for every value in the cell; nothing where boxes are open, where two sheets are
-  /// not told apart, or one may leave the domain.
-  std::optional<int> count(ParameterCell& cell);
-  /// The sheets on which these lie: indices into cell.sheets.
+  /// The sheets on which the solutions in the domain lie, one for every value in the cell: indices into cell.sheets. Nothing
+  /// where boxes are open, where two sheets are not told apart, or one may leave the domain.
   std::optional<std::vector<std::size_t>> solutions(ParameterCell& cell);
 
   std::uint64_t processed() const { return processed_; }  ///< boxes, in all cells

@@ -8,18 +8,13 @@
 #include <utility>
 
 #include "corank/core/check.h"
-#include "corank/core/rounding.h"
 #include "corank/solve/assembly.h"
 #include "corank/solve/memory.h"
 #include "corank/solve/passes.h"
 #include "corank/solve/shard_bytes.h"
-#include "corank/solve/shard_check.h"
 
 namespace corank::solve {
 namespace {
-
-// Each unit has so many numbers for its shards.
-constexpr ShardNumber kNumbers = 2 * (kMostUnitThreads + 1);
 
 // So many times the boxes that are to wait may be processed until they do: a thin tree is not for one worker.
 constexpr std::uint64_t kBeginning = 4;
@@ -32,29 +27,6 @@ std::vector<std::vector<T>> dealt(std::vector<T> all, std::size_t parts) {
   return hands;
 }
 
-// Does σ depend on nothing that is found? Then sheets need not travel to be cut.
-bool sigma_is_known(const Prepared& prepared) { return prepared.options.asked_length() && prepared.options.asked_angle(); }
-
-void cut_at_once(const Prepared& prepared, const Problem& problem, ShardNumber last_number, std::size_t most,
-                 Answer& answer) {
-  Control control;
-  Tally tally(prepared, control, 0);
-  Pool pool(prepared, tally, last_number, &problem);
-  pool.set_sigma({*prepared.options.asked_length(), *prepared.options.asked_angle()});
-  std::vector<Shard*> shards;
-  std::vector<std::vector<Waiting>> left;  // it is not to become pending
-  for (Shard& shard : answer.shards) {
-    shards.push_back(&shard);
-    left.push_back(std::exchange(shard.left, {}));
-  }
-  pool.cut(shards, most);
-  for (std::size_t i = 0; i < shards.size(); ++i) {
-    std::erase_if(shards[i]->sheets, [](const Proven& sheet) { return sheet.cut; });
-    shards[i]->left = std::move(left[i]);
-  }
-  for (Shard& shard : pool.take_shards()) answer.shards.push_back(std::move(shard));
-}
-
 // Whoever runs units beside the coordinator is not to be held to its threads.
 Prepared with_all_threads(Prepared prepared) {
   prepared.options.threads = 0;
@@ -62,49 +34,6 @@ Prepared with_all_threads(Prepared prepared) {
 }
 
 }  // namespace
-
-std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget) {
-  return UnitRunner(prepared).run(unit, budget);
-}
-
-struct UnitRunner::Question {
-  explicit Question(std::string_view bytes)
-      : prepared(prepared_from(bytes)), problem(prepared.system, prepared.reduction, {}) {
-    prepared.options.max_found = prepared.options.max_solutions = 0;
-  }
-  Prepared prepared;
-  Problem problem;
-};
-
-UnitRunner::UnitRunner(std::string_view prepared) : question_(std::make_unique<Question>(prepared)) {}
-UnitRunner::~UnitRunner() = default;
-
-std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
-  Unit unit = unit_from(bytes);
-  Prepared& prepared = question_->prepared;
-  check(unit, prepared);
-  prepared.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
-  Control control({.time = unit.cut ? 0 : budget.seconds, .boxes = unit.cut ? 0 : unit.boxes, .clock = budget.clock});
-  Tally tally(prepared, control, unit.cut ? 0 : budget.boxes);
-  const ShardNumber number = unit.id * kNumbers;
-  Answer answer{unit.id, {}};
-  {
-    Pool pool(prepared, tally, number, &question_->problem);
-    if (unit.cut) {
-      Shard sheets(0, false);
-      sheets.sheets = std::move(unit.sheets);
-      pool.set_sigma(unit.sigma);
-      pool.cut({&sheets});
-    } else {
-      pool.set_sigma(sigma_of_search(prepared, pool.problem()));
-      pool.search(unit.work);
-    }
-    answer.shards = pool.take_shards();
-  }
-  if (!unit.cut && sigma_is_known(prepared))
-    cut_at_once(prepared, question_->problem, number + kMostUnitThreads + 1, budget.found, answer);
-  return to_bytes(answer);
-}
 
 struct Coordinator::Search {
   Search(std::string bytes, const std::optional<std::string>& from, Control* of_run)
@@ -118,7 +47,7 @@ struct Coordinator::Search {
     if (!from) state.first = state.pass = first_pass(prepared);
     if (!prepared.reduction.consistent) finish_without_search();
     for (Shard& shard : state.shards) parts.push_back(std::make_unique<Part>(Part{std::move(shard), {}, {}}));
-    next_id = last_number() / kNumbers + 2;  // the judge has one of its own
+    next_id = last_number() / kNumbersOfUnit + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
     judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
     if (state.cutting) list_sheets();
@@ -137,7 +66,7 @@ struct Coordinator::Search {
   ShardNumber last_number() const {
     ShardNumber last = 0;
     for (const Shard& shard : state.shards) last = std::max(last, shard.number);
-    return (last / kNumbers + 1) * kNumbers;
+    return (last / kNumbersOfUnit + 1) * kNumbersOfUnit;
   }
 
   std::vector<Shard*> all_shards() {
@@ -184,17 +113,14 @@ struct Coordinator::Search {
     const auto by = run.ending();
     stop = !by || by->by != Limit::boxes;
     judge.execute([&] { static_cast<void>(judge.ended()); });
-    Shard left(next_id++ * kNumbers, prepared.options.proof);
+    Shard left(next_id++ * kNumbersOfUnit, prepared.options.proof);
     left.left = std::move(open);
     for (auto& [id, given] : under_way) std::move(given.boxes.begin(), given.boxes.end(), std::back_inserter(left.left));
     under_way.clear();
     if (!state.cutting) {
-      Work rest = next_pass(prepared, state.pass, take_postponed(all_shards()), judge, state.motions);
+      Work rest = next_pass(prepared, state.pass, take(all_shards(), &Shard::postponed), judge, state.motions);
       std::move(rest.boxes.begin(), rest.boxes.end(), std::back_inserter(left.left));
-      state.sigma = judge.problem().tolerant ? sigma_of_search(prepared, judge.problem())
-                                             : sigma_of_set(prepared, judge.problem(), all_shards());
-      judge.set_sigma(state.sigma);
-      state.cutting = true;
+      begin_cutting();
     }
     parts.push_back(std::make_unique<Part>(Part{std::move(left)}));
     judge.cut(all_shards());
@@ -211,6 +137,13 @@ struct Coordinator::Search {
     });
   }
 
+  void begin_cutting() {
+    state.sigma = judge.problem().tolerant ? sigma_of_search(prepared, judge.problem())
+                                           : sigma_of_set(prepared, judge.problem(), all_shards());
+    judge.set_sigma(state.sigma);
+    state.cutting = true;
+  }
+
   void list_sheets() {
     for (Shard* shard : all_shards())
       for (Proven& sheet : shard->sheets)
@@ -225,17 +158,14 @@ struct Coordinator::Search {
   // Where a pass is done, the next one begins; after the last one sheets are to be cut.
   void advance() {
     while (!state.cutting && open.empty() && under_way.empty()) {
-      std::vector<Postponed> postponed = take_postponed(all_shards());
+      std::vector<Postponed> postponed = take(all_shards(), &Shard::postponed);
       if (!postponed.empty()) {
         ++passes;
         state.pass = next_pass(prepared, state.pass, std::move(postponed), judge, state.motions);
         open = std::exchange(state.pass.boxes, {});
         if (!open.empty()) return;
       }
-      state.sigma = judge.problem().tolerant ? sigma_of_search(prepared, judge.problem())
-                                             : sigma_of_set(prepared, judge.problem(), all_shards());
-      judge.set_sigma(state.sigma);
-      state.cutting = true;
+      begin_cutting();
       list_sheets();
     }
   }
@@ -359,7 +289,7 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
   }
   for (const Received::Part& part : answer.parts) {
     check(part, s.prepared);
-    if (part.shard.number / kNumbers != answer.id) throw ShardError("an answer with the numbers of another unit");
+    if (part.shard.number / kNumbersOfUnit != answer.id) throw ShardError("an answer with the numbers of another unit");
   }
   std::int64_t more = 0;
   for (const Received::Part& part : answer.parts) more += s.of(part.shard, part.found);

@@ -23,8 +23,8 @@
 #include <string_view>
 #include <vector>
 
+#include "corank/solve/journal.h"
 #include "corank/solve/pace.h"
-#include "corank/solve/resumable.h"
 
 namespace corank::solve {
 
@@ -39,6 +39,8 @@ struct Budget {
   std::function<double()> clock = {};
 };
 inline constexpr int kMostUnitThreads = 31;
+/// So many numbers of shards are each unit's own: those of its search, then those of its cutting.
+inline constexpr ShardNumber kNumbersOfUnit = 2 * (kMostUnitThreads + 1);
 
 /// Runs a unit of a Coordinator. Throws ShardError where the bytes are none, or of another version.
 std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget = {});

@@ -1,5 +1,6 @@
 #include "corank/solve/control.h"
 
+#include <array>
 #include <chrono>
 #include <limits>
 
@@ -20,32 +21,16 @@ constexpr int kStages = 256;
 }  // namespace
 
 const char* to_string(Stage stage) {
-  switch (stage) {
-    case Stage::model: return "model";
-    case Stage::reduction: return "reduction";
-    case Stage::search: return "search";
-    case Stage::merging: return "merging";
-    case Stage::points: return "collecting points";
-    case Stage::exact: return "exact points";
-    case Stage::kernel: return "kernel dimensions";
-    case Stage::decimals: return "decimals";
-    case Stage::writing: return "writing";
-    case Stage::figures: return "figures";
-    case Stage::page: return "page";
-  }
-  return "?";
+  constexpr std::array kNames{"model",        "reduction",         "search",   "merging", "collecting points",
+                              "exact points", "kernel dimensions", "decimals", "writing", "figures",
+                              "page"};
+  return kNames.at(static_cast<std::size_t>(stage));
 }
 
 const char* to_string(Limit limit) {
-  switch (limit) {
-    case Limit::time: return "the time limit";
-    case Limit::interrupt: return "an interrupt";
-    case Limit::boxes: return "the box limit";
-    case Limit::found: return "the limit of boxes found";
-    case Limit::solutions: return "the solution limit";
-    case Limit::memory: return "the memory limit";
-  }
-  return "?";
+  constexpr std::array kNames{"the time limit",           "an interrupt",       "the box limit",
+                              "the limit of boxes found", "the solution limit", "the memory limit"};
+  return kNames.at(static_cast<std::size_t>(limit));
 }
 
 std::string to_string(const Ending& ending) {

@@ -13,7 +13,7 @@ double value(const Polynomial& f, const std::vector<double>& x) {
   double sum = 0;
   for (const Monomial& m : f.monomials) {
     double product = m.enclosure.mid();
-    for (const Factor& factor : m.factors) product *= std::pow(x[static_cast<std::size_t>(factor.variable)], factor.power);
+    for (const Factor& factor : m.factors) product *= std::pow(x[factor.variable], factor.power);
     sum += product;
   }
   return sum;
@@ -53,33 +53,33 @@ CorankSystem corank_system(const System& system, const certify::KernelMatrix& ma
   result.system.name = system.name + ", corank " + std::to_string(c);
   std::vector<int> index(system.variables.size(), -1);
   for (int j = 0; j < system.size(); ++j) {
-    const Variable& v = system.variables[static_cast<std::size_t>(j)];
+    const Variable& v = system.variables[j];
     if (v.kind == VariableKind::kernel) continue;
-    index[static_cast<std::size_t>(j)] = result.system.size();
+    index[j] = result.system.size();
     result.configuration.push_back(j);
     result.system.variables.push_back(v);
-    result.start.push_back(x[static_cast<std::size_t>(j)]);
+    result.start.push_back(x[j]);
   }
   result.system.configuration_size = result.system.size();
   const auto renamed = [&](Monomial m) {
-    for (Factor& factor : m.factors) factor.variable = index[static_cast<std::size_t>(factor.variable)];
+    for (Factor& factor : m.factors) factor.variable = index[factor.variable];
     return m;
   };
   for (const Polynomial& f : system.equations) {
     Polynomial g{{}, f.source};
     const bool of_configuration = std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
       return std::all_of(m.factors.begin(), m.factors.end(),
-                         [&](const Factor& factor) { return index[static_cast<std::size_t>(factor.variable)] >= 0; });
+                         [&](const Factor& factor) { return index[factor.variable] >= 0; });
     });
     if (!of_configuration) continue;
     for (const Monomial& m : f.monomials) g.monomials.push_back(renamed(m));
     result.system.equations.push_back(std::move(g));
   }
   for (int v = 0; v < c; ++v) {
-    std::vector<int> entry(static_cast<std::size_t>(k), -1);  // variable of ξ_j; −1: a pivot
+    std::vector<int> entry(k, -1);  // variable of ξ_j; −1: a pivot
     for (int j = 0; j < k; ++j) {
       if (std::find(pivots.begin(), pivots.end(), j) != pivots.end()) continue;
-      entry[static_cast<std::size_t>(j)] = result.system.size();
+      entry[j] = result.system.size();
       result.system.variables.emplace_back("xi" + std::to_string(v + 1) + "_" + std::to_string(j + 1), VariableKind::kernel,
                                            -1000, 1000);
       result.start.push_back(vectors(j, v));
@@ -87,9 +87,9 @@ CorankSystem corank_system(const System& system, const certify::KernelMatrix& ma
     for (const auto& row : matrix.rows) {
       Polynomial g{{}, "kernel"};
       for (int j = 0; j < k; ++j) {
-        const int variable = entry[static_cast<std::size_t>(j)];
-        if (variable < 0 && pivots[static_cast<std::size_t>(v)] != j) continue;  // times 0
-        for (const Monomial& m : row[static_cast<std::size_t>(j)].monomials) {
+        const int variable = entry[j];
+        if (variable < 0 && pivots[v] != j) continue;  // times 0
+        for (const Monomial& m : row[j].monomials) {
           Monomial term = renamed(m);
           if (variable >= 0) term.factors.push_back({variable, 1});
           g.monomials.push_back(std::move(term));

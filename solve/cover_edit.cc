@@ -21,7 +21,7 @@ void change_steps(Proof& proof, Change change) {
       case Step::split:
       case Step::box:
       case Step::root: integer += 1; break;
-      case Step::keep: integer += 1 + static_cast<std::size_t>(*at); break;
+      case Step::keep: integer += 1 + *at; break;
       case Step::cut: integer += 2; break;
       case Step::empty:
       case Step::elsewhere: break;
@@ -52,7 +52,7 @@ void change_leaves(Proof& proof, LeafOf leaf_of) {
 
 void CoverEdit::mark(int i, int fate) {
   fate_.resize(cover_.boxes.size(), kStays);
-  fate_[static_cast<std::size_t>(i)] = fate;
+  fate_[i] = fate;
 }
 
 void CoverEdit::replace(int i, int by) { mark(i, by); }
@@ -83,7 +83,7 @@ int CoverEdit::append(const Partition& partition, Proof around, int first_box) {
   };
   proof.roots.emplace_back();
   for (std::size_t k = 0; k < reduction_.kept.size(); ++k) {
-    Interval side = partition.whole[static_cast<std::size_t>(reduction_.kept[k])];
+    Interval side = partition.whole[reduction_.kept[k]];
     side.intersect(reduction_.system.variables[k].domain);
     proof.roots.back().push_back(side);
   }
@@ -126,21 +126,19 @@ void CoverEdit::finish() {
     if (fate_[i] == kStays) order.push_back(static_cast<int>(i));
   std::vector<int> variables = reduction_.kept;
   for (const auto& definition : reduction_.definitions) variables.push_back(definition.variable);
-  std::sort(order.begin(), order.end(), [&](int i, int k) {
-    return before(cover_.boxes[static_cast<std::size_t>(i)], cover_.boxes[static_cast<std::size_t>(k)], variables);
-  });
+  std::sort(order.begin(), order.end(), [&](int i, int k) { return before(cover_.boxes[i], cover_.boxes[k], variables); });
   std::vector<int> place(cover_.boxes.size(), -1);
   std::vector<CoverBox> boxes;
   for (const int i : order) {
-    place[static_cast<std::size_t>(i)] = static_cast<int>(boxes.size());
-    boxes.push_back(std::move(cover_.boxes[static_cast<std::size_t>(i)]));
+    place[i] = static_cast<int>(boxes.size());
+    boxes.push_back(std::move(cover_.boxes[i]));
   }
   cover_.boxes = std::move(boxes);
   if (!cover_.proof) return;
   change_leaves(proof(), [&](int i) {
-    const int by = fate_[static_cast<std::size_t>(i)];
+    const int by = fate_[i];
     if (by <= kInRoot) return Leaf{Step::root, kInRoot - by};
-    return Leaf{Step::box, place[static_cast<std::size_t>(by == kStays ? i : by)]};
+    return Leaf{Step::box, place[by == kStays ? i : by]};
   });
   cover_.proof = std::move(proof_);
 }

@@ -15,26 +15,24 @@ constexpr int kMostPartsAtOnce = 81;  // of a piece with many free sides: the ot
 
 void CutPlanner::measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece) {
   const auto& system = problem_.compiled;
-  const std::size_t n = static_cast<std::size_t>(system.variables()), r = step.dependent().size();
+  const std::size_t n = system.variables(), r = step.dependent().size();
   steepness_.clear();
-  slope_.resize(static_cast<std::size_t>(system.entries()));
+  slope_.resize(system.entries());
   for (std::size_t a = 0; a < r; ++a) {
-    const double sigma = problem_.sigma[static_cast<std::size_t>(step.dependent()[a])];
+    const double sigma = problem_.sigma[step.dependent()[a]];
     if (!std::isfinite(sigma)) continue;
     for (int f : free) steepness_.push_back(std::fabs(step.derivative(static_cast<int>(a), f)) / sigma);
   }
   for (int k = 0; k < system.values(); ++k) {
-    const double sigma = problem_.sigma[n + static_cast<std::size_t>(k)];
+    const double sigma = problem_.sigma[n + k];
     if (!std::isfinite(sigma)) continue;
     const int row = system.value_row(k);
     system.slopes(row, piece, step.center().data(), slope_);
     gradient_.assign(n, 0.0);
-    for (int e = system.row_begin(row); e < system.row_begin(row + 1); ++e)
-      gradient_[static_cast<std::size_t>(system.column(e))] = slope_[static_cast<std::size_t>(e)].mid();
+    for (int e = system.row_begin(row); e < system.row_begin(row + 1); ++e) gradient_[system.column(e)] = slope_[e].mid();
     for (int f : free) {
-      double slope = gradient_[static_cast<std::size_t>(f)];
-      for (std::size_t a = 0; a < r; ++a)
-        slope += gradient_[static_cast<std::size_t>(step.dependent()[a])] * step.derivative(static_cast<int>(a), f);
+      double slope = gradient_[f];
+      for (std::size_t a = 0; a < r; ++a) slope += gradient_[step.dependent()[a]] * step.derivative(static_cast<int>(a), f);
       steepness_.push_back(std::fabs(slope) / sigma);
     }
   }
@@ -45,8 +43,8 @@ std::vector<int> CutPlanner::parts(const certify::NewtonStep& step, const std::v
   constexpr double kMostParts = 1 << 20;
   const std::size_t k = free.size();
   std::vector<double> parts(k, 1.0);
-  const auto width = [&](std::size_t f) { return piece[static_cast<std::size_t>(free[f])].width(); };
-  const auto sigma_of_free = [&](std::size_t f) { return problem_.sigma[static_cast<std::size_t>(free[f])]; };
+  const auto width = [&](std::size_t f) { return piece[free[f]].width(); };
+  const auto sigma_of_free = [&](std::size_t f) { return problem_.sigma[free[f]]; };
   for (std::size_t f = 0; f < k; ++f) parts[f] = std::clamp(std::ceil(width(f) / sigma_of_free(f)), 1.0, kMostParts);
   // The width of a, in its σ, is Σ_f |∂a/∂f| w_f / parts_f.
   for (int round = 0; round < 1000; ++round) {
@@ -72,7 +70,7 @@ std::vector<int> CutPlanner::parts(const certify::NewtonStep& step, const std::v
 std::size_t CutPlanner::longest(const Box& piece, const std::vector<int>& free, const std::vector<int>& parts) const {
   std::size_t along = 0;
   const auto relative_width = [&](std::size_t f) {
-    const auto j = static_cast<std::size_t>(free[f]);
+    const std::size_t j = free[f];
     return piece[j].width() / problem_.compiled.scales()[j];
   };
   for (std::size_t f = 1; f < free.size(); ++f) {
@@ -101,7 +99,7 @@ std::vector<std::vector<double>> CutPlanner::places(const Box& piece, const std:
   }
   std::vector<std::vector<double>> places(free.size());
   for (std::size_t f = 0; f < free.size(); ++f) {
-    const Interval& side = piece[static_cast<std::size_t>(free[f])];
+    const Interval& side = piece[free[f]];
     for (int k = 1; k < parts[f]; ++k) {
       const double share = shares[f] > 0 ? shares[f] : static_cast<double>(k) / parts[f];
       places[f].push_back(std::min(side.lo() + side.width() * share, side.hi()));

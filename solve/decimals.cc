@@ -1,4 +1,4 @@
-#include "corank/solve/decimals.h"
+#include "corank/solve/exactness.h"
 
 #include "corank/certify/algebraic_number.h"
 #include "corank/certify/distinct.h"
@@ -20,7 +20,7 @@ void prove_decimals(const Prepared& prepared, int digits, Cover& cover, Control&
     std::vector<std::string>& decimals = cover.decimals.emplace_back();
     if (point.verdict == Verdict::undecided || control.ended()) continue;
     if (point.point >= 0) {
-      const ExactPoint& exact = cover.exact_points[static_cast<std::size_t>(point.point)];
+      const ExactPoint& exact = cover.exact_points[point.point];
       const certify::AlgebraicNumber t(exact.polynomial, exact.lower, exact.upper);
       const ExactNumber width = pow(ExactNumber(10), -digits - 2);
       for (const auto& x : exact.coordinates) {
@@ -29,17 +29,16 @@ void prove_decimals(const Prepared& prepared, int digits, Cover& cover, Control&
       }
     } else if (point.verdict == Verdict::isolated) {
       std::vector<ExactNumber> start;
-      for (const int j : reduction.kept) start.push_back(ExactNumber::dyadic(point.box[static_cast<std::size_t>(j)].mid()));
+      for (const int j : reduction.kept) start.push_back(ExactNumber::dyadic(point.box[j].mid()));
       const auto zero = certify::prove_zero(reduction.system, start, digits + 2, kMostBits, ended);
-      const Box& region = point.region >= 0 ? cover.regions[static_cast<std::size_t>(point.region)] : point.box;
+      const Box& region = point.region >= 0 ? cover.regions[point.region] : point.box;
       if (!zero || !certify::is_solution_of_region(*zero, reduction, region)) continue;
       decimals.resize(prepared.system.variables.size());
       for (std::size_t j = 0; j < reduction.kept.size(); ++j)
-        decimals[static_cast<std::size_t>(reduction.kept[j])] =
-            certify::proven_decimal(zero->sides[j].first, zero->sides[j].second, digits);
+        decimals[reduction.kept[j]] = certify::proven_decimal(zero->sides[j].first, zero->sides[j].second, digits);
       for (const auto& definition : reduction.definitions) {
         const auto value = certify::bounds(definition.value, zero->sides, zero->bits);
-        decimals[static_cast<std::size_t>(definition.variable)] = certify::proven_decimal(value.first, value.second, digits);
+        decimals[definition.variable] = certify::proven_decimal(value.first, value.second, digits);
       }
     }
   }

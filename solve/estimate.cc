@@ -133,10 +133,10 @@ class Estimator {
     shard.postponed.clear();
     shard.found.clear();
     if (outcome != BoxProcessor::Outcome::split) return;
-    const auto j = static_cast<std::size_t>(processor.split_variable());
+    const std::size_t j = processor.split_variable();
     const Interval side = x[j];
     const double at = *split_point(side);
-    x.resize(static_cast<std::size_t>(problem_.compiled.variables()));
+    x.resize(problem_.compiled.variables());
     x[j] = Interval(at, side.hi());
     next.push_back({x, box.share * (1 - kBisectionPoint), 0});
     x[j] = Interval(side.lo(), at);
@@ -171,7 +171,7 @@ class Estimator {
   double size_of(const Proven& sheet, double coarser) const {
     double product = 1;
     for (const int j : other_variables(sheet.sheet.dependent, problem_.compiled.variables())) {
-      const auto k = static_cast<std::size_t>(j);
+      const std::size_t k = j;
       Interval side = sheet.sheet.image[k];
       side.intersect(sheet.x[k]);
       product *= std::max(1.0, side.width() / (coarser * problem_.sigma[k]));

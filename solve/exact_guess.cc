@@ -1,39 +1,14 @@
-#include "corank/solve/exact_guess.h"
-
-#include <flint/fmpq.h>
 #include <flint/fmpz_lll.h>
 #include <flint/fmpz_mat.h>
 
-#include <cstdlib>
-#include <memory>
 #include <stdexcept>
-#include <string>
 
 #include "corank/certify/algebraic_number.h"
+#include "corank/solve/exact_points.h"
+#include "corank/solve/flint.h"
 
 namespace corank::solve {
 namespace {
-
-// A rational number of FLINT's; numbers pass as text, which both sides read exactly.
-class Rational {
- public:
-  Rational() { fmpq_init(q_); }
-  explicit Rational(const ExactNumber& x) : Rational() {
-    if (fmpq_set_str(q_, x.text().c_str(), 10) != 0) throw std::invalid_argument(x.text() + " is not a fraction");
-  }
-  ~Rational() { fmpq_clear(q_); }
-  Rational(const Rational&) = delete;
-  Rational& operator=(const Rational&) = delete;
-  fmpq* get() { return q_; }
-  ExactNumber exact() const {
-    const std::unique_ptr<char, void (*)(void*)> text(fmpq_get_str(nullptr, 10, q_), flint_free);
-    return ExactNumber::rational(text.get());
-  }
-  long bits() const { return static_cast<long>(fmpz_bits(fmpq_numref(q_)) + fmpz_bits(fmpq_denref(q_))); }
-
- private:
-  fmpq_t q_;
-};
 
 // The simplest fraction within 2^−bits of x, where it is short.
 std::optional<ExactNumber> short_fraction(const ExactNumber& x, int bits) {
@@ -46,13 +21,13 @@ std::optional<ExactNumber> short_fraction(const ExactNumber& x, int bits) {
 
 // Integers c, not all 0, with Σ c_k x_k = 0 to about `bits` bits, all short; else nothing.
 std::optional<std::vector<ExactNumber>> integer_relation(const std::vector<ExactNumber>& x, int bits) {
-  const slong n = static_cast<slong>(x.size());
+  const slong n = x.size();
   fmpz_mat_t lattice;
   fmpz_mat_init(lattice, n, n + 1);
   fmpz_mat_one(lattice);
   const ExactNumber scale = pow(ExactNumber(2), bits);
   for (slong k = 0; k < n; ++k) {
-    Rational scaled(x[static_cast<std::size_t>(k)] * scale);
+    Rational scaled(x[k] * scale);
     fmpz_tdiv_q(fmpz_mat_entry(lattice, k, n), fmpq_numref(scaled.get()), fmpq_denref(scaled.get()));
   }
   fmpz_lll_t options;
@@ -62,8 +37,7 @@ std::optional<std::vector<ExactNumber>> integer_relation(const std::vector<Exact
   long length = static_cast<long>(fmpz_bits(fmpz_mat_entry(lattice, 0, n)));
   for (slong k = 0; k < n; ++k) {
     length += static_cast<long>(fmpz_bits(fmpz_mat_entry(lattice, 0, k)));
-    const std::unique_ptr<char, void (*)(void*)> text(fmpz_get_str(nullptr, 10, fmpz_mat_entry(lattice, 0, k)), flint_free);
-    relation.push_back(ExactNumber::rational(text.get()));
+    relation.push_back(exact(fmpz_mat_entry(lattice, 0, k)));
   }
   fmpz_mat_clear(lattice);
   if (length > bits / 2) return std::nullopt;  // any n numbers have relations of about `bits` bits

@@ -8,8 +8,7 @@
 #include "corank/certify/refinement.h"
 #include "corank/core/box.h"
 #include "corank/solve/corank_system.h"
-#include "corank/solve/exact_guess.h"
-#include "corank/solve/polish.h"
+#include "corank/solve/ipopt.h"
 
 namespace corank::solve {
 namespace {
@@ -63,13 +62,12 @@ std::optional<int> ExactPoints::with_kernel(const certify::KernelMatrix& matrix,
   const std::vector<double> x = midpoint(hull);
   const std::vector<double> s = singular_values(matrix, x);
   const int k = static_cast<int>(s.size());
-  for (int c = least; c <= k && s[static_cast<std::size_t>(k - c)] < kSmallSingularValue * s[0]; ++c) {
+  for (int c = least; c <= k && s[k - c] < kSmallSingularValue * s[0]; ++c) {
     const CorankSystem extended = corank_system(system_, matrix, x, c);
     const auto zero = certify::approximate_zero(extended.system, dyadic(extended.start), kBits, ended_);
     if (!zero) continue;
     std::vector<std::optional<ExactNumber>> coordinates(x.size());
-    for (std::size_t j = 0; j < extended.configuration.size(); ++j)
-      coordinates[static_cast<std::size_t>(extended.configuration[j])] = (*zero)[j];
+    for (std::size_t j = 0; j < extended.configuration.size(); ++j) coordinates[extended.configuration[j]] = (*zero)[j];
     auto point = guess_exactly(coordinates, kGuessBits, kDegree, ended_);
     if (!point) continue;
     const certify::ExactVerification verified = certify::verify_exactly(system_, *point, ended_);

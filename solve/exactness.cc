@@ -14,11 +14,10 @@
 #include "corank/certify/reduction.h"
 #include "corank/core/box.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/box_hash.h"
+#include "corank/solve/box_labels.h"
+#include "corank/solve/box_order.h"
 #include "corank/solve/cover_edit.h"
 #include "corank/solve/exact_points.h"
-#include "corank/solve/kernel_dimensions.h"
-#include "corank/solve/passages.h"
 #include "corank/solve/points.h"
 #include "corank/solve/solve.h"
 
@@ -85,8 +84,7 @@ class Prover {
       if (stopped() || futile >= kMostFutile || cover_.statistics.processed > most) break;
       for (std::size_t& i : cluster) i = open[i];
       Box hull = cover_.boxes[cluster[0]].box;
-      for (const std::size_t i : cluster)
-        for (std::size_t j = 0; j < hull.size(); ++j) hull[j] = Interval::hull(hull[j], cover_.boxes[i].box[j]);
+      for (const std::size_t i : cluster) include(hull, cover_.boxes[i].box);
       const std::optional<int> point = exact_.with_kernel(matrix, hull, system_.kernel_vectors + 1);
       if (!point) {
         ++futile;
@@ -112,7 +110,7 @@ class Prover {
       if (exact && std::find(found.begin(), found.end(), *exact) == found.end()) found.push_back(*exact);
     }
     for (const int index : found) {
-      const certify::PointLocation place(cover_.exact_points[static_cast<std::size_t>(index)]);
+      const certify::PointLocation place(cover_.exact_points[index]);
       for (std::vector<CoverBox>* list : {&cover_.boxes, &cover_.points})
         for (CoverBox& box : *list)
           if (box.verdict == Verdict::undecided && box.point < 0 && place.in(box.box)) box.point = index;
@@ -149,7 +147,7 @@ class Prover {
   }
 
   bool is_only_solution(int index, const Box& box) {
-    ExactPoint& point = cover_.exact_points[static_cast<std::size_t>(index)];
+    ExactPoint& point = cover_.exact_points[index];
     if (certify::holds_nothing_else(point, box)) return true;
     // A power of two that is large enough: a double as well as a rational number.
     double radius = std::ldexp(1.0, -60);
@@ -157,8 +155,8 @@ class Prover {
     while ((ExactNumber::dyadic(radius) - needed).sign() != 1) radius *= 2;
     const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius), ended_);
     if (!faces) return false;
-    Options options{.sigma = kUncut};  // whether there is any box is asked, not how many
-    options.threads = prepared_.options.threads;
+    // Whether there is any box is asked, not how many.
+    const Options options{.sigma = kUncut, .threads = prepared_.options.threads};
     try {
       for (const System& face : *faces) {
         const Cover solutions = solve(prepare(face, options, control_), control_, kFaceBoxes);
@@ -174,13 +172,13 @@ class Prover {
   // The search again, in the hull without a core about the point's known coordinates; then the core itself. Nothing changes
   // where even large cores leave boxes undecided around them.
   void search_around(int index, const Box& hull, const std::vector<std::size_t>& cluster) {
-    const ExactPoint& point = cover_.exact_points[static_cast<std::size_t>(index)];
+    const ExactPoint& point = cover_.exact_points[index];
     double half = 0.25 * width_of(point, hull);
     for (int attempt = 0; attempt < kCoreAttempts; ++attempt, half *= 2) {
       Box core = hull, all = hull;
       const certify::AlgebraicNumber t(point.polynomial, point.lower, point.upper);
       for (const int kept : reduction_.kept) {
-        const std::size_t j = static_cast<std::size_t>(kept);
+        const std::size_t j = kept;
         if (point.coordinates[j].empty()) continue;
         const auto bounds = t.bounds(point.coordinates[j], ExactNumber::dyadic(half / 64));
         core[j] = Interval(bounds.lower.enclose().lo() - half, bounds.upper.enclose().hi() + half);
@@ -214,7 +212,7 @@ class Prover {
   Box with_values(const Box& box) const {
     const UpwardRounding rounding;
     Box sides;
-    for (const int j : reduction_.kept) sides.push_back(box[static_cast<std::size_t>(j)]);
+    for (const int j : reduction_.kept) sides.push_back(box[j]);
     const Box kept = sides;
     for (const auto& definition : reduction_.definitions) sides.push_back(certify::evaluate(definition.value, kept));
     Box result = reduction_.lift(sides);
@@ -227,7 +225,7 @@ class Prover {
     Partition partition;
     partition.whole = all;
     for (std::size_t k = 0; k < reduction_.kept.size(); ++k) {
-      const std::size_t j = static_cast<std::size_t>(reduction_.kept[k]);
+      const std::size_t j = reduction_.kept[k];
       Interval side = all[j], inner = core[j];
       if (!side.intersect(reduction_.system.variables[k].domain) || !inner.intersect(side)) return {};
       if (side.lo() < inner.lo()) {

@@ -31,4 +31,9 @@ void prove_exactly(const Prepared& prepared, Cover& cover, Control& control);
 /// The same within the limits of the options, of which this call is told alone.
 void prove_exactly(const System& system, const Options& options, Cover& cover);
 
+/// Fills cover.decimals: for every isolated or exact point of a set of dimension 0 decimals with so many digits after the
+/// point, proven by certify::prove_zero, or from its exact coordinates. Points that are left once the control has ended the
+/// run have none.
+void prove_decimals(const Prepared& prepared, int digits, Cover& cover, Control& control);
+
 }  // namespace corank::solve

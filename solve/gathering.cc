@@ -99,7 +99,7 @@ CoverBox lifted(const System& system, const certify::Reduction& reduction, Cover
   box.box = reduction.lift(box.box);
   box.box.shrink_to_fit();  // there may be many
   if (box.verdict == Verdict::undecided || box.verdict == Verdict::pending) certify::clip_to_domain(system, box.box);
-  for (int& j : box.free) j = reduction.kept[static_cast<std::size_t>(j)];
+  for (int& j : box.free) j = reduction.kept[j];
   return box;
 }
 

@@ -7,12 +7,19 @@
 #include <vector>
 
 #include "corank/certify/reduction.h"
+#include "corank/core/ended.h"
 #include "corank/solve/problem.h"
 
 namespace corank::solve {
 
 /// By their sides in the variables that were kept, then by what is claimed of them (solve/box_order.h).
 void sort(std::vector<Found*>& found);
+
+/// Replaces pairs of touching regular boxes over the same free variables by one, again and again, where their hull can be
+/// proven as any box is (certify::newton_prove) and is no wider than σ. The proof's image holds every zero of the hull, so
+/// nothing is lost. The result depends on the boxes and their order only; once `ended` is true the other boxes stay as they
+/// are.
+void merge_regular(const Problem& problem, std::vector<Found*>& found, const Ended& ended = {});
 
 /// Numbers the regions of the boxes' proofs by the first box that has each, and returns them in all variables.
 std::vector<Box> number_regions(const certify::Reduction& reduction, const std::vector<Found*>& found);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/solve/degeneracy.h"
+#include "corank/solve/prepared.h"
 #include "corank/solve/shard.h"
 
 namespace corank::solve {
@@ -57,5 +58,12 @@ class Journal {
   /// No thread of the search works meanwhile.
   virtual void keep(const SearchView& state, Moment moment) = 0;
 };
+
+/// solve::solve with a journal, where one is given, and from a state on, which is of a search of the same system with the
+/// same options but for limits and threads; a state in which nothing is cut yet may have had another σ (refinable()).
+Cover solve_on(const Prepared& prepared, Control& control, Journal* journal, std::optional<SearchState> from = {});
+
+/// Is the search the same whatever σ, so that its sheets can be cut anew? It is not where coefficients carry a tolerance.
+bool refinable(const Prepared& prepared);
 
 }  // namespace corank::solve

@@ -18,15 +18,15 @@ constexpr double kStill = 1e-11;
 // The scaled Jacobian and residual.
 void linearize(const Problem& problem, const std::vector<double>& x, Eigen::MatrixXd& a, Vector& b) {
   const certify::CompiledSystem& system = problem.compiled;
-  std::vector<double> sparse(static_cast<std::size_t>(system.entries()));
+  std::vector<double> sparse(system.entries());
   system.approximate_jacobian(x.data(), sparse.data());
   a.setZero(system.equations(), system.variables());
   b.resize(system.equations());
   for (int i = 0; i < system.equations(); ++i) {
-    const double size = problem.equation_sizes[static_cast<std::size_t>(i)];
+    const double size = problem.equation_sizes[i];
     for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k) {
       const int j = system.column(k);
-      a(i, j) = sparse[static_cast<std::size_t>(k)] * system.scales()[static_cast<std::size_t>(j)] / size;
+      a(i, j) = sparse[k] * system.scales()[j] / size;
     }
     b(i) = system.evaluate_at(i, x.data()).mid() / size;
   }
@@ -58,8 +58,7 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
       return result;
     way += shift;
     if (way.lpNorm<Eigen::Infinity>() > reach) return std::nullopt;
-    for (int j = 0; j < system.variables(); ++j)
-      result.x[static_cast<std::size_t>(j)] += shift(j) * system.scales()[static_cast<std::size_t>(j)];
+    for (int j = 0; j < system.variables(); ++j) result.x[j] += shift(j) * system.scales()[j];
   }
   return std::nullopt;
 }
@@ -68,14 +67,13 @@ bool breaks_inequality(const Problem& problem, const std::vector<double>& x, dou
   const certify::CompiledSystem& system = problem.compiled;
   if (system.inequalities() == 0) return false;
   const UpwardRounding rounding;
-  std::vector<Interval> at, slopes(static_cast<std::size_t>(system.entries()));
+  std::vector<Interval> at, slopes(system.entries());
   for (const double v : x) at.emplace_back(v);
   for (int row = system.equations(); row < system.rows(); ++row) {
     double reach = system.evaluate(row, at).mid();
     system.jacobian(row, at, slopes);
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
-      reach += 2 * share * slopes[static_cast<std::size_t>(k)].mag() *
-               system.scales()[static_cast<std::size_t>(system.column(k))];
+      reach += 2 * share * slopes[k].mag() * system.scales()[system.column(k)];
     if (reach < 0) return true;
   }
   return false;

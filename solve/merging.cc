@@ -1,8 +1,8 @@
-#include "corank/solve/merging.h"
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "corank/solve/gathering.h"
+#include "corank/solve/preconditioner.h"
 
 namespace corank::solve {
 namespace {
@@ -49,7 +49,7 @@ class Merger {
 
   // The two variables that spread the boxes most, in their σ.
   void choose_axes() {
-    const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
+    const std::size_t n = problem_.compiled.variables();
     std::vector<double> spread(n);
     for (std::size_t j = 0; j < n; ++j) {
       double least = HUGE_VAL, greatest = -HUGE_VAL;
@@ -59,9 +59,9 @@ class Merger {
       }
       spread[j] = (greatest - least) / problem_.sigma[j];
     }
-    axes_[0] = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) - spread.begin());
+    axes_[0] = std::max_element(spread.begin(), spread.end()) - spread.begin();
     spread[axes_[0]] = -1;
-    axes_[1] = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) - spread.begin());
+    axes_[1] = std::max_element(spread.begin(), spread.end()) - spread.begin();
   }
 
   // Boxes in one box of size σ have lower ends at most σ apart.
@@ -96,7 +96,7 @@ class Merger {
   bool merge(Found& found, const CoverBox& b) {
     const CoverBox& a = found.box;
     const auto& system = problem_.compiled;
-    const std::size_t n = static_cast<std::size_t>(system.variables());
+    const std::size_t n = system.variables();
     Box hull(a.box.size());
     for (std::size_t j = 0; j < hull.size(); ++j) {
       if (!a.box[j].overlaps(b.box[j])) return false;

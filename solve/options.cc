@@ -58,6 +58,12 @@ Control::Limits limits_of(const Options& options, const std::atomic<bool>* stop)
           .later_bytes = 0};  // files are written without a copy
 }
 
+double uncut_sigma(const System& system) {
+  double widest = 1;
+  for (const Interval& side : system.domain()) widest = std::max(widest, side.width());
+  return 2 * widest;
+}
+
 Sigma smallest_sigma(const System& system) {
   Sigma largest;
   for (const auto& v : system.variables) {

@@ -60,6 +60,9 @@ inline constexpr int kMostThreads = 1024;
 /// Those of the options that end a run; `stop`: Control::Limits::stop.
 Control::Limits limits_of(const Options& options, const std::atomic<bool>* stop = nullptr);
 
+/// A σ that is wider than every sheet in the search domain: none is cut.
+double uncut_sigma(const System& system);
+
 /// The least σ that a search accepts: below it the rounding of doubles would keep boxes from becoming that narrow.
 Sigma smallest_sigma(const System& system);
 

@@ -13,8 +13,7 @@ namespace corank::solve {
 namespace {
 
 // Intervals are written as they are kept, (−lo, hi), as doubles of this machine's: those of all that corank runs on.
-static_assert(sizeof(Interval) == 2 * sizeof(double) && std::is_trivially_copyable_v<Interval> &&
-              std::endian::native == std::endian::little);
+static_assert(sizeof(Interval) == 2 * sizeof(double) && std::is_trivially_copyable_v<Interval>);
 
 bool same_kind(const CoverBox& a, const CoverBox& b) {
   return a.verdict == b.verdict && a.region == b.region && a.point == b.point && a.kernel_at_most == b.kernel_at_most &&

@@ -40,10 +40,7 @@ class PackedFound {
   // Boxes in a row that share a kind and a region, 0: none, else the number of one plus 1.
   struct Run {
     std::uint32_t kind = 0, region = 0, count = 0;
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive(kind, region, count);
-    }
+    void serialize(auto& archive) { archive(kind, region, count); }
   };
 
  private:

@@ -1,6 +1,7 @@
 #include "corank/solve/points.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "corank/certify/distinct.h"
@@ -20,13 +21,7 @@ std::vector<std::size_t> indices(const std::vector<Found*>& found, Choose choose
   return result;
 }
 
-std::vector<const Box*> sides(const std::vector<Found*>& found) {
-  std::vector<const Box*> result;
-  for (const Found* f : found) result.push_back(&f->box.box);
-  return result;
-}
-
-std::size_t sides_of(const std::vector<Found*>& found) { return found.empty() ? 0 : found[0]->box.box.size(); }
+const Box& box_of(const Found* found) { return found->box.box; }
 
 constexpr std::size_t kBetweenChecks = 64;
 
@@ -52,7 +47,7 @@ void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
     }
   };
   const auto proven = indices(found, is_proven);
-  const BoxTree tree(proven.empty() ? std::vector<const Box*>{} : sides(found), sides_of(found));
+  const BoxTree tree = proven.empty() ? BoxTree({}, 0) : box_tree(found, box_of);
   std::vector<std::size_t> close;
   bool over = false;
   for (std::size_t k = 0; k < proven.size(); ++k) {
@@ -83,13 +78,10 @@ void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
 std::vector<std::vector<std::size_t>> clusters(const std::vector<const Box*>& boxes, const std::vector<double>& gaps,
                                                const Ended& ended) {
   std::vector<Box> widened(boxes.size());
-  std::vector<const Box*> sides;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+  for (std::size_t i = 0; i < boxes.size(); ++i)
     for (std::size_t j = 0; j < gaps.size(); ++j)
       widened[i].push_back((*boxes[i])[j] + Interval(-0.5 * gaps[j], 0.5 * gaps[j]));
-    sides.push_back(&widened[i]);
-  }
-  const std::vector<std::size_t> group = BoxTree(sides, gaps.size()).groups(0, ended);
+  const std::vector<std::size_t> group = box_tree(widened, std::identity()).groups(0, ended);
   std::vector<std::vector<std::size_t>> result;
   for (std::size_t i = 0; i < group.size(); ++i) {
     if (group[i] == result.size()) result.emplace_back();

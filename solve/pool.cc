@@ -61,7 +61,7 @@ struct Pool::Threads {
     Worker& worker = workers.local();
     BoxProcessor& processor = worker.processor;
     std::optional<Recorder>& script = worker.shard.script;
-    std::vector<Interval> x(static_cast<std::size_t>(variables())), given;
+    std::vector<Interval> x(variables()), given;
     std::int64_t listed = 0;
     while (!list.empty()) {
       tally.keep_waiting(list.size(), listed);
@@ -80,7 +80,7 @@ struct Pool::Threads {
         continue;
       }
       if (outcome == BoxProcessor::Outcome::split) {
-        const auto j = static_cast<std::size_t>(processor.split_variable());
+        const std::size_t j = processor.split_variable();
         const Interval side = x[j];
         const double at = *split_point(side);
         NodeId lower, upper;
@@ -144,7 +144,7 @@ void Pool::execute(const std::function<void()>& f) { threads_->arena.execute(f);
 
 void Pool::search(const Work& work) {
   Threads& t = *threads_;
-  WorkList list(static_cast<std::size_t>(t.variables()), work.until > 0);
+  WorkList list(t.variables(), work.until > 0);
   for (auto box = work.boxes.rbegin(); box != work.boxes.rend(); ++box) list.push(box->x, box->share, box->node);
   t.tally.wait_for(list.size());
   execute([&] {
@@ -155,24 +155,6 @@ void Pool::search(const Work& work) {
       CORANK_CHECK(t.group.wait() != tbb::canceled);  // else waiting boxes would be lost
     }
   });
-}
-
-std::vector<Postponed> take_postponed(const std::vector<Shard*>& shards) {
-  std::vector<Postponed> all;
-  for (Shard* shard : shards) {
-    std::move(shard->postponed.begin(), shard->postponed.end(), std::back_inserter(all));
-    shard->postponed.clear();
-  }
-  return all;
-}
-
-std::vector<Waiting> take_left(const std::vector<Shard*>& shards) {
-  std::vector<Waiting> all;
-  for (Shard* shard : shards) {
-    std::move(shard->left.begin(), shard->left.end(), std::back_inserter(all));
-    shard->left.clear();
-  }
-  return all;
 }
 
 void Pool::add_proven(const Postponed& box) {
@@ -197,7 +179,7 @@ bool Pool::cut(const std::vector<Shard*>& shards, std::size_t most) {
   for (Shard* shard : shards)
     for (Proven& sheet : shard->sheets)
       if (!sheet.cut) sheets.push_back(&sheet);
-  const std::vector<Waiting> left = take_left(shards);
+  const std::vector<Waiting> left = take(shards, &Shard::left);
   std::atomic<bool> paused{false};
   execute([&] {
     const auto cut_one = [&](std::size_t i) {

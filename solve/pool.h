@@ -2,6 +2,8 @@
 // threads only share the work, and what all shards hold together is the same for any number of them.
 #pragma once
 
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -57,9 +59,15 @@ class Pool {
   std::unique_ptr<Threads> threads_;
 };
 
-/// Takes the postponed boxes out of the shards.
-std::vector<Postponed> take_postponed(const std::vector<Shard*>& shards);
-/// The same of those that are left: newest first, as Pool::search takes them.
-std::vector<Waiting> take_left(const std::vector<Shard*>& shards);
+/// Takes one of their lists out of the shards: &Shard::postponed, or &Shard::left, newest first, as Pool::search takes them.
+template <class T>
+std::vector<T> take(const std::vector<Shard*>& shards, std::vector<T> Shard::*list) {
+  std::vector<T> all;
+  for (Shard* shard : shards) {
+    std::move((shard->*list).begin(), (shard->*list).end(), std::back_inserter(all));
+    (shard->*list).clear();
+  }
+  return all;
+}
 
 }  // namespace corank::solve

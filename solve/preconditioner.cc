@@ -60,11 +60,7 @@ CORANK_WIDE void exchange(const Pivoting& e, int row, int column) {
 }  // namespace
 
 PreconditionerFactory::PreconditionerFactory(const certify::CompiledSystem& system, Ended ended)
-    : system_(system),
-      ended_(std::move(ended)),
-      m_(system.equations()),
-      n_(system.variables()),
-      stride_(whole_lanes(static_cast<std::size_t>(n_))) {}
+    : system_(system), ended_(std::move(ended)), m_(system.equations()), n_(system.variables()), stride_(whole_lanes(n_)) {}
 
 const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<const Interval> x,
                                                                   const std::vector<int>* candidates,
@@ -86,8 +82,7 @@ const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<co
     for (int a = 0; a < result_.rank(); ++a) {
       double shift = 0;
       for (int b = 0; b < result_.rank(); ++b)
-        shift += result_.y[static_cast<std::size_t>(a) * result_.rank() + b] *
-                 system_.evaluate_at(result_.equations[b], start.data()).mid();
+        shift += result_.y[a * result_.rank() + b] * system_.evaluate_at(result_.equations[b], start.data()).mid();
       center_[result_.dependent[a]] -= shift;
       moved = std::max(moved, std::fabs(shift) / system_.scales()[result_.dependent[a]]);
     }
@@ -158,27 +153,26 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
     result_.dependent.push_back(column);
   }
   const int r = result_.rank();
-  result_.y.resize(static_cast<std::size_t>(r) * r);
+  result_.y.resize(r * r);
   for (int a = 0; a < r; ++a)
-    for (int b = 0; b < r; ++b)
-      result_.y[static_cast<std::size_t>(a) * r + b] = tableau_[result_.equations[a] * stride_ + result_.dependent[b]];
+    for (int b = 0; b < r; ++b) result_.y[a * r + b] = tableau_[result_.equations[a] * stride_ + result_.dependent[b]];
   round_to_floats(result_);
   return result_;
 }
 
 std::vector<int> PreconditionerFactory::chart_of_last(const std::vector<double>& sizes, double gain) const {
-  const auto size = [&](int j) { return sizes[static_cast<std::size_t>(j)]; };
+  const auto size = [&](int j) { return sizes[j]; };
   const std::vector<int>& dependent = result_.dependent;
-  const std::size_t k = static_cast<std::size_t>(n_) - dependent.size();
+  const std::size_t k = n_ - dependent.size();
   Chart chart;  // in units of the sizes
-  chart.tangent.assign(static_cast<std::size_t>(n_) * k, 0.0);
+  chart.tangent.assign(n_ * k, 0.0);
   chart.free = other_variables(dependent, n_);
   for (std::size_t f = 0; f < k; ++f) {
     const int j = chart.free[f];
-    chart.tangent[static_cast<std::size_t>(j) * k + f] = 1;
+    chart.tangent[j * k + f] = 1;
     for (int a = 0; a < result_.rank(); ++a) {
-      const int other = dependent[static_cast<std::size_t>(a)];
-      chart.tangent[static_cast<std::size_t>(other) * k + f] = sensitivity(a, j) * size(j) / size(other);
+      const int other = dependent[a];
+      chart.tangent[other * k + f] = sensitivity(a, j) * size(j) / size(other);
     }
   }
   improve(chart, gain);

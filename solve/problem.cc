@@ -10,13 +10,13 @@ namespace {
 constexpr double kRedundantRankTolerance = 1e-7;  // of redundant equations near their solution
 constexpr double kRoundedRankTolerance = 1e-4;    // of such with rounded coefficients
 
+}  // namespace
+
 std::vector<Polynomial> values_of(const certify::Reduction& reduction) {
   std::vector<Polynomial> values;
   for (const auto& definition : reduction.definitions) values.push_back(definition.value);
   return values;
 }
-
-}  // namespace
 
 Problem::Problem(const System& system, const certify::Reduction& reduction, std::function<bool()> e)
     : compiled(reduction.system, values_of(reduction)),
@@ -62,15 +62,14 @@ double Problem::relative_width(std::span<const Interval> x) const {
 }
 
 void Problem::append_values(Box& sides) const {
-  sides.resize(static_cast<std::size_t>(compiled.variables()));
+  sides.resize(compiled.variables());
   for (int k = 0; k < compiled.values(); ++k) sides.push_back(compiled.evaluate(compiled.value_row(k), sides));
 }
 
 void Problem::append_values_at_zeros(const certify::NewtonStep& step, Box& sides) const {
   append_values(sides);
-  const std::size_t n = static_cast<std::size_t>(compiled.variables());
-  for (int k = 0; k < compiled.values(); ++k)
-    sides[n + static_cast<std::size_t>(k)].intersect(step.value_at_zeros(compiled.value_row(k), sides));
+  const std::size_t n = compiled.variables();
+  for (int k = 0; k < compiled.values(); ++k) sides[n + k].intersect(step.value_at_zeros(compiled.value_row(k), sides));
 }
 
 std::vector<int> other_variables(const std::vector<int>& given, int variables) {

@@ -19,6 +19,9 @@
 
 namespace corank::solve {
 
+/// Of the eliminated variables, in the kept ones.
+std::vector<Polynomial> values_of(const certify::Reduction& reduction);
+
 /// Constant during a search.
 struct Problem {
   /// `ended` tells, from any thread, that a limit or a stop has ended the search.

@@ -15,7 +15,7 @@ bool is_linear(const Monomial& m) { return m.degree() <= 1 && !m.is_trigonometri
 double size_of(const Monomial& m, const std::vector<double>& sizes) {
   double size = 1;
   for (const Factor& x : m.factors)
-    if (x.function == Function::identity) size *= std::pow(sizes[static_cast<std::size_t>(x.variable)], x.power);
+    if (x.function == Function::identity) size *= std::pow(sizes[x.variable], x.power);
   return size;
 }
 

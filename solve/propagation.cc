@@ -16,13 +16,13 @@ constexpr int kDomainRuns = 8;            // of the search domain
 }  // namespace
 
 bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> x, Recorder* recorder) {
-  changed_.resize(static_cast<std::size_t>(system.variables()));
+  changed_.resize(system.variables());
   // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows,
   // since each return costs a variable a tenth of its width.
   queue_.clear();
   for (int row = 0; row < system.contracting_rows(); ++row) queue_.push_back(row);
-  pending_.assign(static_cast<std::size_t>(system.contracting_rows()), 1);
-  const std::size_t limit = static_cast<std::size_t>(system.contracting_rows()) * kTurns;
+  pending_.assign(system.contracting_rows(), 1);
+  const std::size_t limit = system.contracting_rows() * kTurns;
   for (std::size_t head = 0; head < queue_.size() && head < limit; ++head) {
     const int row = queue_[head];
     pending_[row] = 0;
@@ -69,13 +69,12 @@ TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<In
     const double value = side.mag() > kOneValue * whole || !std::isfinite(whole) ? side.mag() : whole;
     sizes.variables.push_back(usable(half > kOneValue * value ? half : value));
   }
-  std::vector<Interval> jacobian(static_cast<std::size_t>(system.entries()));
+  std::vector<Interval> jacobian(system.entries());
   system.jacobian(domain, jacobian);
   for (int row = 0; row < system.equations(); ++row) {
     double largest = 0;
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
-      largest = std::max(largest, jacobian[static_cast<std::size_t>(k)].mag() *
-                                      sizes.variables[static_cast<std::size_t>(system.column(k))]);
+      largest = std::max(largest, jacobian[k].mag() * sizes.variables[system.column(k)]);
     sizes.equations.push_back(usable(largest));
   }
   return sizes;

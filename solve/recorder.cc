@@ -148,18 +148,18 @@ Proof Recorder::assemble(const std::vector<const Recorder*>& recorders, std::vec
           take(1, 0);
           // Numbered as they are used, whichever thread has recorded them.
           proof.integers.back() = static_cast<std::int32_t>(proof.combinations.size());
-          proof.combinations.push_back(from.script_.combinations[static_cast<std::size_t>(first)]);
+          proof.combinations.push_back(from.script_.combinations[first]);
           break;
-        case Step::keep: take(1 + static_cast<std::size_t>(first), static_cast<std::size_t>(first)); break;
+        case Step::keep: take(1 + first, first); break;
         case Step::split: take(1, 1); break;
         case Step::cut: {
-          const auto places = static_cast<std::size_t>(from.script_.integers[integer + 1]);
+          const std::size_t places = from.script_.integers[integer + 1];
           take(2, places);
           break;
         }
         case Step::box:
           take(1, 0);
-          proof.integers.back() = place.at(from.leaf(static_cast<std::size_t>(first)));
+          proof.integers.back() = place.at(from.leaf(first));
           break;
         case Step::empty:
         case Step::elsewhere: break;

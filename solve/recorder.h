@@ -21,10 +21,7 @@ struct NodeId {
   ShardNumber shard = 0;
   std::uint64_t place = 0;
   auto operator<=>(const NodeId&) const = default;
-  template <class Archive>
-  void serialize(Archive& archive) {
-    archive(shard, place);
-  }
+  void serialize(auto& archive) { archive(shard, place); }
 };
 /// A leaf `box i` of a script: which of the boxes that a shard has found.
 using LeafId = NodeId;
@@ -64,8 +61,7 @@ class Recorder {
   void leaf_elsewhere() { step(Proof::Step::elsewhere); }
 
   /// What has been recorded, for an archive (solve/shard_bytes.h): it is between two boxes.
-  template <class Archive>
-  void serialize(Archive& archive) {
+  void serialize(auto& archive) {
     archive(shard_, next_, script_, combination_bytes_, nodes_);
     open_ = nullptr;
   }
@@ -77,20 +73,14 @@ class Recorder {
  private:
   struct Cursor {
     std::uint64_t step = 0, integer = 0, real = 0;
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive(step, integer, real);
-    }
+    void serialize(auto& archive) { archive(step, integer, real); }
   };
   struct Node {
     Cursor begin, end;
     NodeId lower{}, upper{};  // where it was split; upper alone: where its script goes on
     bool is_split = false, goes_on = false;
     std::uint64_t number = 0;  // so many were begun before
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive(begin, end, lower, upper, is_split, goes_on, number);
-    }
+    void serialize(auto& archive) { archive(begin, end, lower, upper, is_split, goes_on, number); }
   };
   void step(Proof::Step s);
   void close();

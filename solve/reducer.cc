@@ -132,11 +132,11 @@ bool Reducer::eliminate_image() {
   std::vector<int> uses(rewriting_.system().variables.size(), 0);
   for (const auto* rows : {&rewriting_.system().equations, &rewriting_.system().inequalities})
     for (const Polynomial& f : *rows)
-      for (int v : certify::variables_of(f)) ++uses[static_cast<std::size_t>(v)];
+      for (int v : certify::variables_of(f)) ++uses[v];
   for (std::size_t i = 0; i < rewriting_.system().equations.size(); ++i) {
     const Polynomial& f = rewriting_.system().equations[i];
     for (int v : certify::variables_of(f)) {
-      if (uses[static_cast<std::size_t>(v)] != 1 || certify::variables_of(f).size() < 2) continue;
+      if (uses[v] != 1 || certify::variables_of(f).size() < 2) continue;
       const auto value = rewriting_.value_of(v, i);
       if (!value || !affordable(v, *value)) continue;
       // A sine or cosine is no factor: c = cos t stays where another image is r·c.

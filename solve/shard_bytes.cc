@@ -4,29 +4,18 @@
 #include <ostream>
 #include <streambuf>
 
-#include "corank/solve/engine_version.h"
 #include "corank/solve/packed_found.h"
-#include "corank/solve/prepared_archive.h"
-#include "corank/solve/shard_check.h"
+#include "corank/solve/search_archive.h"
 
 namespace corank {
 
-template <class Archive>
-void serialize(Archive& archive, SelfMotionRecord& r) {
-  archive(r.dimension, r.relations);
-}
+void serialize(auto& archive, SelfMotionRecord& r) { archive(r.dimension, r.relations); }
 
 namespace solve {
 
-template <class Archive>
-void serialize(Archive& archive, SelfMotions::Stored& s) {
-  archive(s.motions, s.observed, s.former);
-}
+void serialize(auto& archive, SelfMotions::Stored& s) { archive(s.motions, s.observed, s.former); }
 
-template <class Archive>
-void serialize(Archive& archive, Unit& u) {
-  archive(u.id, u.cut, u.boxes, u.work, u.sigma, u.sheets);
-}
+void serialize(auto& archive, Unit& u) { archive(u.id, u.cut, u.boxes, u.work, u.sigma, u.sheets); }
 
 void save(ByteOutput& archive, const Shard& s) {
   archive(s.number, s.sheets, s.postponed, s.left, s.script, s.statistics);
@@ -92,7 +81,7 @@ class StringBuffer : public std::streambuf {
     return traits_type::not_eof(c);
   }
   std::streamsize xsputn(const char* some, std::streamsize count) override {
-    bytes.append(some, static_cast<std::size_t>(count));
+    bytes.append(some, count);
     return count;
   }
 };
@@ -140,6 +129,12 @@ void read_value(std::string_view kind, std::string_view bytes, Read read) {
   }
 }
 
+template <class Value>
+Value value_from(std::string_view kind, std::string_view bytes, Value value = {}) {
+  read_value(kind, bytes, [&](ByteInput& archive) { archive(value); });
+  return value;
+}
+
 std::size_t expected_bytes(const Answer& answer) {
   std::size_t bytes = 4096;
   for (const Shard& shard : answer.shards) {
@@ -159,12 +154,17 @@ constexpr std::string_view kPrepared = "question", kWork = "work", kShard = "sha
 
 }  // namespace
 
+extern const char* const kEngineHash;  // made by cmake/EngineHash.cmake
+
+const std::string& engine_version() {
+  static const std::string version = std::string(CORANK_VERSION) + " (search " + kEngineHash + ")";
+  return version;
+}
+
 std::string to_bytes(const Prepared& prepared) { return bytes_of_value(kPrepared, prepared); }
 std::string to_bytes(const Work& work) { return bytes_of_value(kWork, work); }
 std::string to_bytes(const Shard& shard) { return bytes_of_value(kShard, shard); }
-
 std::string to_bytes(const Unit& unit) { return bytes_of_value(kUnit, unit); }
-
 std::string to_bytes(const Answer& answer) { return bytes_of_value(kAnswer, answer, expected_bytes(answer)); }
 
 std::string to_bytes(const SearchView& state) {
@@ -197,29 +197,10 @@ Prepared prepared_from(std::string_view bytes) {
   return prepared;
 }
 
-Work work_from(std::string_view bytes) {
-  Work work;
-  read_value(kWork, bytes, [&](ByteInput& archive) { archive(work); });
-  return work;
-}
-
-Shard shard_from(std::string_view bytes) {
-  Shard shard(0, false);
-  read_value(kShard, bytes, [&](ByteInput& archive) { archive(shard); });
-  return shard;
-}
-
-Unit unit_from(std::string_view bytes) {
-  Unit unit;
-  read_value(kUnit, bytes, [&](ByteInput& archive) { archive(unit); });
-  return unit;
-}
-
-Received answer_from(std::string_view bytes) {
-  Received answer;
-  read_value(kAnswer, bytes, [&](ByteInput& archive) { archive(answer); });
-  return answer;
-}
+Work work_from(std::string_view bytes) { return value_from<Work>(kWork, bytes); }
+Shard shard_from(std::string_view bytes) { return value_from(kShard, bytes, Shard(0, false)); }
+Unit unit_from(std::string_view bytes) { return value_from<Unit>(kUnit, bytes); }
+Received answer_from(std::string_view bytes) { return value_from<Received>(kAnswer, bytes); }
 
 SearchState state_from(std::string_view bytes, const Prepared& prepared) {
   SearchState state;

@@ -14,6 +14,10 @@
 
 namespace corank::solve {
 
+/// Which searches may be put together: those of one version, which come to the same boxes. "0.1.0 (search 3f9a01c2b7d4)":
+/// corank's version and a hash of the sources that decide what a search does.
+const std::string& engine_version();
+
 /// What was read is not what was expected, or another version of corank has made it: what() names both.
 class ShardError : public std::runtime_error {
  public:
@@ -46,5 +50,13 @@ Unit unit_from(std::string_view bytes);
 /// The bytes stay where they are, as long as the answer is there.
 Received answer_from(std::string_view bytes);
 SearchState state_from(std::string_view bytes, const Prepared& prepared);
+
+/// Does what was read fit the system that it is said to be of? Throw ShardError where a box has another number of sides, or
+/// an index names nothing.
+void check(const Work& work, const Prepared& prepared);
+void check(const Shard& shard, const Prepared& prepared);
+void check(const Received::Part& part, const Prepared& prepared);
+void check(const Unit& unit, const Prepared& prepared);
+void check(const SearchState& state, const Prepared& prepared);
 
 }  // namespace corank::solve

@@ -1,6 +1,5 @@
-#include "corank/solve/shard_check.h"
-
 #include <cmath>
+#include <utility>
 
 #include "corank/solve/shard_bytes.h"
 
@@ -20,10 +19,8 @@ struct Sizes {
 };
 
 void check_indices(const std::vector<int>& indices, std::size_t below) {
-  for (const int i : indices) expect(i >= 0 && static_cast<std::size_t>(i) < below);
+  for (const int i : indices) expect(i >= 0 && std::cmp_less(i, below));
 }
-
-void check_waiting(const Waiting& box, const Sizes& sizes) { expect(box.x.size() == sizes.variables); }
 
 void check_sheet(const certify::Sheet& sheet, const Sizes& sizes) {
   expect(sheet.region.size() == sizes.variables && sheet.image.size() == sizes.variables &&
@@ -43,25 +40,17 @@ void check_found(const Found& found, const Sizes& sizes) {
   if (found.sheet) check_sheet(*found.sheet, sizes);
 }
 
-}  // namespace
-
-void check(const Work& work, const Prepared& prepared) {
-  const Sizes sizes(prepared);
-  for (const Waiting& box : work.boxes) check_waiting(box, sizes);
-  expect(work.postpone >= 0 && std::isfinite(work.postpone));
+void check_proven(const Proven& proven, const Sizes& sizes) {
+  expect(proven.x.size() == sizes.variables);
+  check_sheet(proven.sheet, sizes);
 }
-
-namespace {
 
 void check_but_found(const Shard& shard, std::size_t found, const Prepared& prepared) {
   const Sizes sizes(prepared);
-  for (const Waiting& box : shard.left) check_waiting(box, sizes);
-  for (const Proven& proven : shard.sheets) {
-    expect(proven.x.size() == sizes.variables);
-    check_sheet(proven.sheet, sizes);
-  }
+  for (const Waiting& box : shard.left) expect(box.x.size() == sizes.variables);
+  for (const Proven& proven : shard.sheets) check_proven(proven, sizes);
   for (const Postponed& postponed : shard.postponed) {
-    check_waiting(postponed.box, sizes);
+    expect(postponed.box.x.size() == sizes.variables);
     expect(postponed.near.x.size() == sizes.variables);
     if (postponed.proof.proven) check_sheet(postponed.proof, sizes);
   }
@@ -69,6 +58,12 @@ void check_but_found(const Shard& shard, std::size_t found, const Prepared& prep
 }
 
 }  // namespace
+
+void check(const Work& work, const Prepared& prepared) {
+  const Sizes sizes(prepared);
+  for (const Waiting& box : work.boxes) expect(box.x.size() == sizes.variables);
+  expect(work.postpone >= 0 && std::isfinite(work.postpone));
+}
 
 void check(const Shard& shard, const Prepared& prepared) {
   const Sizes sizes(prepared);
@@ -87,10 +82,7 @@ void check(const Received::Part& part, const Prepared& prepared) {
 void check(const Unit& unit, const Prepared& prepared) {
   const Sizes sizes(prepared);
   check(unit.work, prepared);
-  for (const Proven& proven : unit.sheets) {
-    expect(proven.x.size() == sizes.variables);
-    check_sheet(proven.sheet, sizes);
-  }
+  for (const Proven& proven : unit.sheets) check_proven(proven, sizes);
 }
 
 void check(const SearchState& state, const Prepared& prepared) {

@@ -26,7 +26,7 @@ double preferred_number(double x) {
   const double decade = std::floor(std::log10(x));
   const auto step = std::lround(20 * (std::log10(x) - decade));
   const double power = std::pow(10.0, decade);
-  return step < 20 ? kSeries[static_cast<std::size_t>(step)] * power : 10 * power;
+  return step < 20 ? kSeries[step] * power : 10 * power;
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ SigmaClass sigma_class(const Variable& variable) {
 
 std::vector<SigmaClass> sigma_classes(const System& system, const certify::Reduction& reduction) {
   std::vector<SigmaClass> classes;
-  const auto add = [&](int j) { classes.push_back(sigma_class(system.variables[static_cast<std::size_t>(j)])); };
+  const auto add = [&](int j) { classes.push_back(sigma_class(system.variables[j])); };
   for (const int j : reduction.kept) add(j);
   for (const auto& definition : reduction.definitions) add(definition.variable);
   return classes;

@@ -10,8 +10,6 @@
 
 namespace corank::solve {
 
-/// The largest edge of a box in lengths, in the model's unit, and in the sine and the cosine of angles.
-
 /// Which σ a variable has.
 enum class SigmaClass : std::uint8_t { none, length, angle };
 SigmaClass sigma_class(const Variable& variable);

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "corank/certify/sheet_range.h"
+#include "corank/core/box.h"
 
 namespace corank::solve {
 namespace {
@@ -49,7 +50,7 @@ NewtonStep Slicer::tighten(const Task& task, Piece& piece, const Preconditioner*
     last.emplace(certify::tighten_sheet(problem_.compiled, *p, sides, workspace_));
     piece.spread = last->outcome().spread;
   };
-  sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
+  sides.resize(problem_.compiled.variables());
   const bool is_point = task.free.empty();
   if (!is_point && piece.spread > kStaleSpread) renew();  // the parts of such a piece are hardly better
   double width = HUGE_VAL;
@@ -74,7 +75,7 @@ NewtonStep Slicer::tighten(const Task& task, Piece& piece, const Preconditioner*
 }
 
 bool Slicer::trim(const Task& task, NewtonStep& step, const Preconditioner* own, Box& sides) {
-  const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
+  const std::size_t n = problem_.compiled.variables();
   bool inside = true;
   for (std::size_t j = 0; j < n; ++j) {
     if (!sides[j].overlaps(task.x[j])) return false;
@@ -86,7 +87,7 @@ bool Slicer::trim(const Task& task, NewtonStep& step, const Preconditioner* own,
   if (!step.contract_free(met_)) return false;
   bool narrower = false;
   for (int f : task.free) {
-    const auto j = static_cast<std::size_t>(f);
+    const std::size_t j = f;
     narrower = narrower || met_[j].width() < kTrimShare * sides[j].width();
     sides[j] = met_[j];
   }
@@ -122,7 +123,7 @@ bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Bo
   for (unsigned index = 0; index < 1u << free.size(); ++index) {
     Box part = piece;
     for (std::size_t f = 0; f < free.size(); ++f) {
-      Interval& side = part[static_cast<std::size_t>(free[f])];
+      Interval& side = part[free[f]];
       side = index >> f & 1u ? Interval(side.mid(), side.hi()) : Interval(side.lo(), side.mid());
     }
     if (!holds_on_parts(sheet, free, std::move(part), depth - 1)) return false;
@@ -142,8 +143,7 @@ void Slicer::leave_room(const Task& task, Box& piece) const {
     // Inside the region, where the solution is the only one, and not across an end of the domain that the side keeps.
     Interval wider = side + Interval(-room, room);
     if (!wider.intersect((*task.region)[j])) continue;
-    if (j < static_cast<std::size_t>(problem_.compiled.variables()) &&
-        !wider.intersect(Interval::hull(side, problem_.domain.side(j))))
+    if (std::cmp_less(j, problem_.compiled.variables()) && !wider.intersect(Interval::hull(side, problem_.domain.side(j))))
       continue;
     side = Interval::hull(side, wider);
   }
@@ -172,10 +172,7 @@ void Slicer::add(Task& task, Box piece, Location location) {
 }
 
 void Slicer::leave(FoundList& found, Box sides) {
-  if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) {
-    if (recorder_) recorder_->leaf_elsewhere();
-    return;
-  }
+  if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) return leave_elsewhere();
   problem_.append_values(sides);
   if (recorder_) recorder_->leaf_box(found.size());
   found.push_back({{std::move(sides), Verdict::pending, {}}, {}, nullptr, {}});
@@ -184,7 +181,7 @@ void Slicer::leave(FoundList& found, Box sides) {
 std::optional<std::vector<int>> Slicer::better_chart(const Task& task, const Box& sides) {
   const Sheet& sheet = task.sheet;
   if (sheet.motion >= 0 || problem_.is_partial(sheet)) return std::nullopt;
-  const std::size_t n = static_cast<std::size_t>(problem_.compiled.variables());
+  const std::size_t n = problem_.compiled.variables();
   std::vector<double> sizes(n);
   for (std::size_t j = 0; j < n; ++j)
     sizes[j] = std::isfinite(problem_.sigma[j]) ? problem_.sigma[j] : kNoSigma * problem_.compiled.scales()[j];
@@ -197,9 +194,8 @@ std::optional<std::vector<int>> Slicer::better_chart(const Task& task, const Box
 }
 
 bool Slicer::slice_in_chart(Task& task, Box sides, const std::vector<int>& dependent) {
-  sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
-  for (std::size_t j = 0; j < sides.size(); ++j)
-    if (!sides[j].intersect(task.x[j])) return false;
+  sides.resize(problem_.compiled.variables());
+  if (!intersect(sides, task.x)) return false;
   const auto& p = preconditioners_.at_midpoint(sides, &dependent, &task.sheet.equations);
   if (p.dependent.size() < dependent.size()) return false;
   const Sheet sheet = certify::newton_prove(problem_.compiled, p, sides, workspace_);
@@ -228,14 +224,9 @@ void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, FoundList& f
 
 void Slicer::leave_piece(Task& task, Box sides) {
   left_some_ = true;
-  bool here = true;
-  sides.resize(static_cast<std::size_t>(problem_.compiled.variables()));
-  for (std::size_t j = 0; j < sides.size(); ++j) here = here && sides[j].intersect(task.x[j]);
-  if (here) {
-    leave(task.found, std::move(sides));
-  } else if (recorder_) {
-    recorder_->leaf_elsewhere();  // another box's business
-  }
+  sides.resize(problem_.compiled.variables());
+  if (!intersect(sides, task.x)) return leave_elsewhere();
+  leave(task.found, std::move(sides));
 }
 
 void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
@@ -248,10 +239,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   std::optional<NewtonStep> step = tighten(task, piece, p, renewed);
   // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
   const std::optional<Location> location = place(task, *step, p, sides);
-  if (!location) {
-    if (recorder_) recorder_->leaf_elsewhere();
-    return;
-  }
+  if (!location) return leave_elsewhere();
   double width = problem_.excess(sides);
   std::vector<int> parts;
   if (width > 1 && !free.empty() && !task.whole) {
@@ -266,10 +254,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     // Small enough but for overestimation: look closer.
     if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
       certify::shrink_to_faces(problem_.compiled, task.sheet, *p, problem_.sigma, sides, workspace_);
-      if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) {
-        if (recorder_) recorder_->leaf_elsewhere();
-        return;
-      }
+      if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) return leave_elsewhere();
       step.reset();
       width = problem_.excess(sides);
     }
@@ -277,7 +262,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts
   // in a row gain nothing, the piece stays as it is, proven.
   const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
-  const auto divisible = [&](int j) { return split_point(sides[static_cast<std::size_t>(j)]).has_value(); };
+  const auto divisible = [&](int j) { return split_point(sides[j]).has_value(); };
   if (width <= 1 || task.whole || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {
     add(task, std::move(sides), *location);
     return;
@@ -289,7 +274,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
 
 void Slicer::settle(const Task& task, NewtonStep& step, Part& part) {
   const auto small = [&] {
-    for (std::size_t j = 0; j < static_cast<std::size_t>(problem_.compiled.variables()); ++j)
+    for (std::size_t j = 0; std::cmp_less(j, problem_.compiled.variables()); ++j)
       if (part.sides[j].width() > problem_.sigma[j]) return false;
     return true;
   };
@@ -316,7 +301,7 @@ void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, std::o
     std::size_t rest = index;
     for (std::size_t f = free.size(); f-- > 0; rest /= places[f].size() + 1) {
       const std::size_t k = rest % (places[f].size() + 1);
-      Interval& side = all[index].sides[static_cast<std::size_t>(free[f])];
+      Interval& side = all[index].sides[free[f]];
       side = Interval(k == 0 ? side.lo() : places[f][k - 1], k == places[f].size() ? side.hi() : places[f][k]);
     }
     if (step) settle(task, *step, all[index]);
@@ -325,9 +310,7 @@ void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, std::o
   const auto finish = [&](Part& part) {
     switch (part.fate) {
       case Part::Fate::found: return add(task, std::move(part.sides), Location::inside);
-      case Part::Fate::elsewhere:
-        if (recorder_) recorder_->leaf_elsewhere();
-        return;
+      case Part::Fate::elsewhere: return leave_elsewhere();
       case Part::Fate::open:
         return descend(task,
                        {std::move(part.sides), piece.former_width, piece.futile_cuts, piece.spread, piece.charts_tried}, p);

@@ -100,6 +100,10 @@ class Slicer {
   void add(Task& task, Box piece, certify::Location location);
   // What a limit leaves of a piece.
   void leave_piece(Task& task, Box sides);
+  // It is another box's business, or outside the domain.
+  void leave_elsewhere() {
+    if (recorder_) recorder_->leaf_elsewhere();
+  }
   // What a limit leaves, unless it is outside the domain.
   void leave(FoundList& found, Box sides);
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "corank/solve/assembly.h"
+#include "corank/solve/journal.h"
 #include "corank/solve/passes.h"
-#include "corank/solve/resumable.h"
 
 namespace corank::solve {
 namespace {
@@ -67,7 +67,7 @@ class Search {
     while (any) {
       pool_.search(pass_);
       if (tally_.ended() || !tally_.pausing()) break;
-      pass_.boxes = take_left(pool_.shards());
+      pass_.boxes = take(pool_.shards(), &Shard::left);
       keep(view(), Moment::paused);
       tally_.resume();
     }
@@ -82,10 +82,10 @@ class Search {
       if (tally_.ended() || !pass_.boxes.empty()) end(view());
     }
     pass_.boxes.clear();
-    if (!journal_) return advance(take_postponed(pool_.shards()));
+    if (!journal_) return advance(take(pool_.shards(), &Shard::postponed));
     // What ends meanwhile is done again by whoever resumes: as it is before.
     const SelfMotions motions = motions_;
-    const std::vector<Postponed> postponed = take_postponed(pool_.shards());
+    const std::vector<Postponed> postponed = take(pool_.shards(), &Shard::postponed);
     const Work done{{}, postpone};
     SearchView before{.first = first_, .pass = done, .motions = motions, .parts = pool_.finished()};
     const SearchView::Part mine = pool_.end_of_mine();

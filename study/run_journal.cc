@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "corank/solve/engine_version.h"
 #include "corank/solve/shard_bytes.h"
 
 namespace corank::study {

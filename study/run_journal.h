@@ -8,7 +8,7 @@
 #include <string>
 
 #include "corank/result/checkpoint.h"
-#include "corank/solve/resumable.h"
+#include "corank/solve/journal.h"
 
 namespace corank::study {
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "corank/core/check.h"
-#include "corank/solve/engine_version.h"
 #include "corank/solve/shard_bytes.h"
 #include "corank/study/run_journal.h"
 #include "corank/study/search_steps.h"

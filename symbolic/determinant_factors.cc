@@ -30,4 +30,27 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
   return result;
 }
 
+ExpressionMatrix locked_matrix(const Mechanism& mechanism, SingularitySet set) {
+  return kernel_question(mechanism, set, KernelSide::left).matrix;
+}
+
+Loci singularity_loci(const Mechanism& mechanism, const Ended& ended) {
+  Loci loci;
+  loci.matrices = {locked_matrix(mechanism, SingularitySet::forward), locked_matrix(mechanism, SingularitySet::inverse)};
+  for (std::size_t k = 0; k < 2; ++k) {
+    loci.factors[k] = determinant_factors(mechanism, loci.matrices[k], ended);
+    const std::size_t known = loci.all_factors.size();
+    for (const Expression& e : loci.factors[k]) {
+      const auto begin = loci.all_factors.begin(), end = begin + static_cast<std::ptrdiff_t>(known);
+      std::size_t place = std::find_if(begin, end, [&](const Expression& f) { return same_tree(e, f); }) - begin;
+      if (place == known) {
+        place = loci.all_factors.size();
+        loci.all_factors.push_back(e);
+      }
+      loci.places[k].push_back(place);
+    }
+  }
+  return loci;
+}
+
 }  // namespace corank::symbolic

@@ -2,10 +2,12 @@
 // vanish at once the determinant's own gradient is zero; theirs need not be.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "corank/core/ended.h"
 #include "corank/symbolic/exact_matrix.h"
+#include "corank/symbolic/singularity_system.h"
 #include "corank/symbolic/velocity_equation.h"
 
 namespace corank::symbolic {
@@ -19,5 +21,18 @@ namespace corank::symbolic {
 /// determinant more than 20,000 terms.
 std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix,
                                             const Ended& ended = {});
+
+/// L_y of the forward set or L_z of the inverse one, as `corank derive` prints them.
+ExpressionMatrix locked_matrix(const Mechanism& mechanism, SingularitySet set);
+
+/// The loci that divide a C-space: where det L_y, and where det L_z, is 0.
+struct Loci {
+  std::array<ExpressionMatrix, 2> matrices;          ///< L_y, L_z
+  std::array<std::vector<Expression>, 2> factors;    ///< of their determinants
+  std::vector<Expression> all_factors;               ///< of both, each once
+  std::array<std::vector<std::size_t>, 2> places{};  ///< of the factors of each among all
+};
+/// Throws as determinant_factors() does, and where the model has no inputs or outputs.
+Loci singularity_loci(const Mechanism& mechanism, const Ended& ended = {});
 
 }  // namespace corank::symbolic

@@ -1,5 +1,5 @@
 // In which aspect the boxes of another cover lie.
-#include "corank/analyze/piece_places.h"
+#include "corank/analyze/pieces.h"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@
 
 #include "corank/result/checkpoint.h"
 #include "corank/result/result_file.h"
-#include "corank/solve/engine_version.h"
+#include "corank/solve/shard_bytes.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {

@@ -1,7 +1,6 @@
 // What only exact arithmetic proves: the three-slider's degenerate points, Dextar's configurations with a kernel of
 // dimension 2.
 #include "corank/solve/exactness.h"
-#include "corank/solve/decimals.h"
 #include "corank/solve/solve.h"
 
 #include <gtest/gtest.h>

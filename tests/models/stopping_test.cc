@@ -5,7 +5,6 @@
 #include <atomic>
 
 #include "corank/check/checker.h"
-#include "corank/solve/decimals.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"

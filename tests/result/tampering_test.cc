@@ -11,9 +11,9 @@
 
 #include "corank/result/result_file.h"
 #include "corank/result/verification.h"
+#include "corank/solve/box_labels.h"
 #include "corank/solve/exactness.h"
 #include "corank/solve/solve.h"
-#include "corank/solve/type_labels.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"

@@ -4,10 +4,9 @@
 
 #include <random>
 
+#include "corank/solve/box_labels.h"
 #include "corank/solve/control.h"
-#include "corank/solve/kernel_dimensions.h"
 #include "corank/solve/prepared.h"
-#include "corank/solve/type_labels.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::solve {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "corank/check/checker.h"
-#include "corank/solve/resumable.h"
+#include "corank/solve/journal.h"
 #include "corank/solve/shard_bytes.h"
 #include "corank/tests/solve/same_cover.h"
 

@@ -25,7 +25,7 @@ class Pieces {
     SelfMotions motions;
     const Work first = work_from(to_bytes(first_pass(prepared_)));
     for (Work pass = first; !pass.boxes.empty();
-         pass = next_pass(prepared_, pass, take_postponed(pointers()), judge_, motions))
+         pass = next_pass(prepared_, pass, take(pointers(), &Shard::postponed), judge_, motions))
       search(pass);
     for (Shard& shard : judge_.take_shards()) shards_.push_back(std::move(shard));
     const Sigma sigma = sigma_of_set(prepared_, judge_.problem(), pointers());

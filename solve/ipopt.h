@@ -1,5 +1,4 @@
-// The least value of a variable among the solutions of a system, found by Ipopt (key WaechterBiegler2006). Heuristic: a
-// start for a proof.
+// Points that Ipopt finds (key WaechterBiegler2006), in doubles. Heuristic: starts for what certify/ proves.
 #pragma once
 
 #include <optional>
@@ -10,6 +9,10 @@
 #include "corank/core/ended.h"
 
 namespace corank::solve {
+
+/// The point of a box that comes nearest to solving a system: a local minimum of ½‖F(x)‖² over the box, each side widened by
+/// half its width, from its midpoint. Nothing where Ipopt fails. Ends with the point that it has once `ended` is true.
+std::optional<std::vector<double>> polish(const System& system, const Box& box, const Ended& ended = {});
 
 /// A local minimum of x_variable among the solutions in the box, from a start in it. Nothing where Ipopt finds no solution,
 /// or `ended` is true before.
