@@ -56,7 +56,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
                               .proof = options.certificate,
                               .proof_of_parts = false};
   const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
-  // Boxes that a limit has left are none, either.
+  // A box that a limit has left is no sheet.
   if (!std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet)) {
     result.reason = "C-space is not shown to be smooth in the search domain";
     return result;

@@ -44,8 +44,8 @@ double root_above(double square);
 Nearest nearest(const solve::Prepared& prepared, const std::vector<Polynomial>& differences, const NearestOptions& options,
                 solve::Control& control);
 
-/// A search of seconds that ends with so many solutions, for the question whether there is one: its end is none of the
-/// run's. `boxes`: processed at most; 0: no limit.
+/// A search of seconds that asks whether there is a solution, and ends with so many of them. The run does not end with it.
+/// `boxes`: processed at most; 0: no limit.
 Cover search_briefly(System system, std::uint64_t solutions, std::uint64_t boxes, int threads,
                      const solve::Control& control);
 

@@ -41,7 +41,7 @@ std::vector<int> piece_places(SignCells& cells, const Pieces& pieces, const std:
                               const solve::Control& control);
 
 /// Of pieces that are exact: the one in which all solutions in the box and next to it lie at which the functions have these
-/// signs. Theorem: each lies in a cell that the box meets, in the part of these signs. Nothing: not known, or there is none.
+/// signs. Theorem: each lies in a cell that the box meets, in the part of these signs. Nothing where no piece is known.
 std::optional<int> only_piece(const SignCells& cells, const Pieces& pieces, const Box& box, const std::vector<int>& signs);
 
 }  // namespace corank::analyze

@@ -33,7 +33,7 @@ PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view)
 /// "J_{3x} = 0.5, θ₂ = 3.002 …": the model's own coordinates.
 std::string values_html(const PathView& view, const std::vector<double>& values, const symbolic::Mechanism& mechanism);
 
-/// A table: of each sign function its sign at both ends; empty where there is none.
+/// A table of the sign functions with the sign of each at both ends. Empty if there are no sign functions.
 std::string signs_html(const PathView& view);
 
 /// A table of the waypoints, with the radius that follows each; empty without a path.
