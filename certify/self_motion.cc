@@ -98,7 +98,9 @@ Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, 
     if (!inside) {  // of {R, g} less may be known than of E: a larger region is to hold it
       for (const int d : sheet.dependent) {
         const auto j = static_cast<std::size_t>(d);
-        start[j] = Interval::hull(start[j], Interval::hull(sheet.region[j], other.image[j]));
+        const Interval& image = other.image[j];  // the next one differs from it by roundings
+        const Interval wider = image + Interval(-image.width(), image.width());
+        start[j] = Interval::hull(start[j], Interval::hull(sheet.region[j], wider));
       }
       continue;
     }

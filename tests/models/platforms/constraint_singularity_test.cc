@@ -75,6 +75,35 @@ TEST(ConstraintSingularities, OfA3UpuAlongALineAreTwoPostures) {
   }
 }
 
+// The same in a plane: a circle about the middle, where the legs are long enough. Its self-motion, in which the two proofs
+// differ by roundings, is proven all along.
+TEST(ConstraintSingularities, OfA3UpuInAPlaneAreAProvenCircle) {
+  std::string text = symbolic::read_text(CORANK_SOURCE_DIR "/models/platforms/3upu.cuik");
+  text.resize(text.find("[OUTPUTS]"));
+  const study::Model model =
+      study::parse_model({text + "[OUTPUTS]\nP : pose of platform.C range z [11/10, 11/10] keeps id\n", "3upu.cuik"});
+  const System system = study::system(
+      {.model = model.mechanism, .set = symbolic::SingularitySet::cspace_singular, .assembly = model.assembly});
+  const Cover cover = solve::solve(system, {});
+  EXPECT_TRUE(cover.complete());
+  for (const CoverBox& b : cover.boxes) EXPECT_NE(b.verdict, Verdict::undecided);
+  const auto x = static_cast<std::size_t>(system.find("P_x")), y = static_cast<std::size_t>(system.find("P_y"));
+  int reachable = 0;
+  for (int k = 0; k < 360; ++k) {
+    const double t = 2 * std::numbers::pi * k / 360, px = std::cos(t), py = std::sin(t);
+    bool reaches = true;
+    for (int leg = 0; leg < 3; ++leg) {
+      const double at = 2 * std::numbers::pi * leg / 3;
+      reaches = reaches && Vector3d(px - 0.5 * std::cos(at), py - 0.5 * std::sin(at), 1.1).norm() < 2;
+    }
+    reachable += reaches;
+    EXPECT_EQ(reaches, std::any_of(cover.boxes.begin(), cover.boxes.end(),
+                                   [&](const CoverBox& b) { return b.box[x].contains(px) && b.box[y].contains(py); }))
+        << k;
+  }
+  EXPECT_GT(reachable, 60);
+}
+
 // The pose of a platform with three freedoms, in one orientation: its position is the output. There the platform may turn
 // although the motors are locked.
 TEST(ConstraintSingularities, OfA3UpuInOneOrientationAreForwardSingularities) {
