@@ -14,7 +14,7 @@ namespace corank::app {
 struct SolveCommand {
   QuestionOptions question;
   std::optional<double> sigma, sigma_length, sigma_angle, tolerance;
-  SearchLimits limits{.threads = 1};
+  SearchLimits limits{};
   std::optional<std::uint64_t> max_solutions;
   int digits = 0;
   bool proof = false, area = false;

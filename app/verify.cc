@@ -33,7 +33,7 @@ struct VerifyCommand {
   std::string input;
   JsonOption json;
   bool require_proof = false;
-  int threads = 1;
+  int threads = 0;
   double time_limit = 0;
   std::size_t sample = 0;
 };
