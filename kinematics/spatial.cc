@@ -1,18 +1,18 @@
 #include "corank/kinematics/spatial.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "corank/kinematics/concentric.h"
 #include "corank/kinematics/frames.h"
 #include "corank/kinematics/portrayal.h"
+#include "corank/kinematics/rods.h"
 #include "corank/kinematics/twists.h"
 
 namespace corank::kinematics {
 namespace {
 
 using symbolic::ModelError;
-
-Vec cleaned(const Algebra& algebra, const Vec& v) { return {algebra.clean(v[0]), algebra.clean(v[1]), algebra.clean(v[2])}; }
 
 bool same_points(const Bodies& a, const Bodies& b) {
   for (std::size_t j = 0; j < a.joints.size(); ++j)
@@ -32,7 +32,9 @@ class SpatialRobot {
         draft_(draft),
         deep_(deep),
         loops_(bodies_, algebra),
-        frames_(robot, bodies_, loops_, algebra, draft) {
+        frames_(robot, bodies_, loops_, algebra, draft),
+        positions_{bodies_, algebra, frames_},
+        rods_(robot, bodies_, loops_, algebra, draft, positions_) {
     positions_.origins.resize(bodies.size());
     positions_.origins[0] = Vec{0, 0, 0};
     positions_.coordinate.resize(robot.joints.size());
@@ -53,7 +55,7 @@ class SpatialRobot {
     for (const TreeEdge& edge : tree_.edges) reach(edge);
     for (const TreeEdge& edge : tree_.edges) place_in_plane(edge);
     for (const std::size_t j : tree_.chords)
-      if (!close_in_plane(j)) close(bodies_.joints[j]);
+      if (!close_in_plane(j)) is_rod(bodies_.joints[j].kind) ? rods_.close(j) : close(bodies_.joints[j]);
     for (const BodyJoint& j : bodies_.joints) frames_.limit(j);
     bool moves = false;
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
@@ -64,7 +66,9 @@ class SpatialRobot {
     }
     for (const Output& output : robot_.outputs) add(output);
     std::optional<Twists> twists;
-    if (moves || !robot_.outputs.empty()) {
+    if (rods_.has_two() && all_are_coordinates()) {
+      if (draft_.has_branches()) draft_.velocity_of_equations();
+    } else if (moves || !robot_.outputs.empty()) {
       twists.emplace(robot_, bodies_, tree_, frames_, loops_, positions_, algebra_, draft_, is_spherical());
       twists->run();
     }
@@ -91,8 +95,16 @@ class SpatialRobot {
     return joint(j).ranges.size() > i ? joint(j).ranges[i] : std::nullopt;
   }
   std::size_t group(std::size_t body) const { return bodies_.group[body]; }
-  Vec place(const BodyEnd& end) {
-    return cleaned(algebra_, *positions_.origins[end.body] + frames_.image(group(end.body), end.point));
+  Vec place(const BodyEnd& end) const { return positions_.place(end); }
+
+  /// Inputs and outputs: then Φ's own derivative says all.
+  bool all_are_coordinates() const {
+    const auto is_input = [&](std::size_t j) { return !robot_.joints[j].actuated || positions_.coordinate[j]; };
+    const auto is_output = [](const Output& output) {
+      return output.kind == Output::Kind::joint || output.kind == Output::Kind::position;
+    };
+    const auto joints = std::views::iota(std::size_t{0}, robot_.joints.size());
+    return std::ranges::all_of(joints, is_input) && std::ranges::all_of(robot_.outputs, is_output);
   }
 
   /// Of links that are looked at in one orientation only.
@@ -151,108 +163,11 @@ class SpatialRobot {
     const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
     Vec at = place(parent);
     if (is_rod(j.kind)) {
-      const Vec p = hang(j, edge, child.body);
-      keep_in_plane(j, p);
-      at = at + p;
+      at = at + rods_.hang(edge);
     } else {
       at = edge.from == 0 ? at + way(j) : at - way(j);
     }
-    positions_.origins[child.body] = cleaned(algebra_, at - frames_.image(group(child.body), child.point));
-  }
-
-  ex length_of(const BodyJoint& j) {
-    const Joint& of = joint(j);
-    if (j.kind == JointKind::distance) return algebra_.constant(of.length, of.where);
-    positions_.coordinate[j.index] = draft_.length(of.name, range(j), of.where);
-    draft_.limit_last();
-    return *positions_.coordinate[j.index];
-  }
-
-  /// A body that only rods carry: the vector along the first of them is a coordinate.
-  Vec hang(const BodyJoint& j, const TreeEdge& edge, std::size_t body) {
-    const ex length = length_of(j);
-    Vec p;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::optional<Range> limits = rod_range(j);
-      p[i] = draft_.length("P_" + joint(j).name + "_" + "xyz"[i], limits, joint(j).where);
-    }
-    const ex square = j.kind == JointKind::distance ? algebra_.clean(length * length) : ex(length * length);
-    draft_.equation(dot(p, p) - square, "rod", joint(j).where);
-    hung_.push_back({edge.joint, body, p, square, {}});
-    return p;
-  }
-
-  /// A rod's component is no longer than the rod; the range is a little wider, so that the set reaches no end of it.
-  std::optional<Range> rod_range(const BodyJoint& j) const {
-    const Joint& of = joint(j);
-    const Expression wider("11/10");
-    if (j.kind == JointKind::distance) return Range{-(wider * of.length), wider * of.length};
-    if (range(j)) return Range{-(wider * range(j)->upper), wider * range(j)->upper};
-    return std::nullopt;
-  }
-
-  struct Hung {
-    std::size_t joint;  ///< in bodies_.joints
-    std::size_t body;
-    Vec p;                                  ///< along the rod, towards the body
-    ex square;                              ///< of its length
-    std::array<std::optional<ex>, 3> seen;  ///< p along the body's directions, once they were needed
-  };
-
-  /// |p + R b − a|² = |p|² + |b|² + |a|² + 2 p·R b − 2 p·a − 2 a·R b, where |p|² is known and q = Rᵀp are coordinates: so
-  /// the difference of two legs' equations is linear in them.
-  ex squared_distance(Hung& hung, const Vec& b, const Vec& a) {
-    const std::size_t g = group(hung.body);
-    const Vec c = frames_.coefficients(g, b);
-    ex along = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (algebra_.is_zero(c[i])) continue;
-      if (!hung.seen[i]) {
-        const Joint& of = joint(bodies_.joints[hung.joint]);
-        const ex q = draft_.length("q_" + of.name + "_" + std::to_string(i + 1), rod_range(bodies_.joints[hung.joint]),
-                                   of.where, true);
-        draft_.equation(q - dot(hung.p, frames_.direction(g, i)), "q", of.where);
-        hung.seen[i] = q;
-      }
-      along += c[i] * *hung.seen[i];
-    }
-    return hung.square + dot(b, b) + dot(a, a) + 2 * along - 2 * dot(hung.p, a) - 2 * dot(a, frames_.image(g, b));
-  }
-
-  /// The axes at a leg's universal joints and the leg, along p, are perpendicular to its inner axes: det(a, p, b) = 0.
-  void keep_in_plane(const BodyJoint& j, const Vec& p) {
-    if (j.kind != JointKind::universal_rod) return;
-    const auto axis = [&](std::size_t end) { return frames_.image(group(j.ends[end].body), j.ends[end].axis); };
-    draft_.equation(dot(p, cross(axis(1), axis(0))), "universal joints", joint(j).where, "the leg '" + joint(j).name + "'");
-  }
-
-  void close_rod(const BodyJoint& j) {
-    const Joint& of = joint(j);
-    keep_in_plane(j, cleaned(algebra_, place(j.ends[1]) - place(j.ends[0])));
-    const ex length = length_of(j);
-    for (Hung& hung : hung_) {
-      const BodyJoint& first = bodies_.joints[hung.joint];
-      for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-        if (j.ends[end].body != hung.body) continue;
-        const std::size_t far = first.ends[0].body == hung.body ? 0 : 1;
-        const Vec b = j.ends[end].point - first.ends[far].point;
-        const Vec a = cleaned(algebra_, place(j.ends[1 - end]) - place(first.ends[1 - far]));
-        if (depends_on(a, hung)) continue;
-        draft_.equation(squared_distance(hung, cleaned(algebra_, b), a) - length * length, "rod", of.where,
-                        "the rod '" + of.name + "'");
-        return;
-      }
-    }
-    const Vec gap = cleaned(algebra_, place(j.ends[1]) - place(j.ends[0]));
-    draft_.equation(dot(gap, gap) - length * length, "rod", of.where, "the rod '" + of.name + "'");
-  }
-
-  /// Does a hang on the same rod?
-  bool depends_on(const Vec& a, const Hung& hung) const {
-    for (const ex& component : a)
-      for (const ex& p : hung.p)
-        if (component.has(p)) return true;
-    return false;
+    positions_.origins[child.body] = algebra_.clean(at - frames_.image(group(child.body), child.point));
   }
 
   // In the plane of loops with parallel axes, from the body that carries them.
@@ -298,7 +213,7 @@ class SpatialRobot {
       return turn->second * Turn{part->in_plane(group(body), way, algebra_)};
     };
     if (is_rod(j.kind)) {
-      const ex length = length_of(j), square = gap.squared();
+      const ex length = rods_.length(j), square = gap.squared();
       const auto branches = j.kind == JointKind::distance ? draft_.branches().of_rod(index, gap, seen) : std::nullopt;
       draft_.closing({square - length * length}, branches, "rod", of.where, "the rod '" + of.name + "'");
       part->closings[index] = {square / 2};
@@ -317,16 +232,12 @@ class SpatialRobot {
   void close(const BodyJoint& j) {
     const Joint& of = joint(j);
     const std::string what = "the loop that the joint '" + of.name + "' closes";
-    if (is_rod(j.kind)) {
-      close_rod(j);
-      return;
-    }
     const Vec gap = place(j.ends[1]) - place(j.ends[0]);
     if (j.kind == JointKind::planar) {
       draft_.equation(dot(gap, frames_.image(group(j.ends[0].body), j.ends[0].axis)), "plane", of.where, what);
       return;
     }
-    const Vec open = cleaned(algebra_, gap - way(j));
+    const Vec open = algebra_.clean(gap - way(j));
     Vec components = open;
     if (const auto along = closing_directions(open)) {
       components = {dot(open, (*along)[0]), dot(open, (*along)[1]), dot(open, (*along)[2])};
@@ -392,17 +303,16 @@ class SpatialRobot {
     if (output.kind == Output::Kind::direction) {
       const Placement& at = bodies_.placement[output.link];
       add_components(
-          output,
-          frames_.image(group(bodies_.of_link[output.link]),
-                        cleaned(algebra_, algebra_.unit(at.rotation * algebra_.vector(output.point, output.where)))));
+          output, frames_.image(group(bodies_.of_link[output.link]),
+                                algebra_.clean(algebra_.unit(at.rotation * algebra_.vector(output.point, output.where)))));
     }
   }
 
   Vec point_of(const Output& output) {
     const Placement& at = bodies_.placement[output.link];
     const std::size_t body = bodies_.of_link[output.link];
-    const Vec local = cleaned(algebra_, at.translation + at.rotation * algebra_.vector(output.point, output.where));
-    const Vec p = cleaned(algebra_, *positions_.origins[body] + frames_.image(group(body), local));
+    const Vec local = algebra_.clean(at.translation + at.rotation * algebra_.vector(output.point, output.where));
+    const Vec p = algebra_.clean(*positions_.origins[body] + frames_.image(group(body), local));
     positions_.output_points.emplace(output.name, p);
     return p;
   }
@@ -427,7 +337,7 @@ class SpatialRobot {
   Frames frames_;
   SpanningTree tree_;
   Positions positions_;
-  std::vector<Hung> hung_;
+  Rods rods_;
   bool translates_ = false;  // a loop's positions say something
 };
 

@@ -6,7 +6,8 @@
 // between directions, a rod by one. So there are as many equations as coordinates, less the mobility.
 //
 // Velocities are twists (Davies 1981; Zlatanov, Fenton, Benhabib 1994): a loop's rates times its screws add up to zero; rows
-// that can never hold anything are left out.
+// that can never hold anything are left out. Where two rods are taken together (rods.h) and all inputs and outputs are
+// coordinates, velocities are those of the equations.
 #pragma once
 
 #include "corank/kinematics/bodies.h"

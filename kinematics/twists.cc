@@ -40,10 +40,6 @@ void Twists::run() {
   for (const Output& output : robot_.outputs) add(output);
 }
 
-Vec Twists::cleaned(const Vec& v) const { return {algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])}; }
-Vec Twists::place(const BodyEnd& end) {
-  return cleaned(*positions_.origins[end.body] + frames_.image(group(end.body), end.point));
-}
 Vec Twists::axis(const BodyJoint& j, std::size_t end) { return frames_.image(group(j.ends[end].body), j.ends[end].axis); }
 
 Vec Twists::own_axis(std::size_t j, std::size_t body) const {

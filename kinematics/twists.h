@@ -13,23 +13,13 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "corank/kinematics/dyads.h"
-#include "corank/kinematics/frames.h"
+#include "corank/kinematics/positions.h"
 
 namespace corank::kinematics {
-
-/// Where things are, in the world.
-struct Positions {
-  std::vector<std::optional<Vec>> origins;    ///< of each body's frame
-  std::vector<std::optional<ex>> coordinate;  ///< of each joint of the robot: its angle, way or length
-  std::map<std::string, Vec> output_points;   ///< by the output's name
-  /// Of joints in Bodies::joints that close a loop along other directions than the world's: these three.
-  std::map<std::size_t, std::array<Vec, 3>> closing;
-};
 
 /// One rate's part of a body's motion.
 struct Screw {
@@ -62,8 +52,8 @@ class Twists {
  private:
   const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
   std::size_t group(std::size_t body) const { return bodies_.group[body]; }
-  Vec cleaned(const Vec& v) const;
-  Vec place(const BodyEnd& end);
+  Vec cleaned(const Vec& v) const { return algebra_.clean(v); }
+  Vec place(const BodyEnd& end) const { return positions_.place(end); }
   Vec axis(const BodyJoint& j, std::size_t end);
   Vec own_axis(std::size_t joint, std::size_t body) const;
   std::array<Vec, 2> axes(const Dyad& dyad);  ///< in the world

@@ -155,6 +155,22 @@ class Planted {
     return planted;
   }
 
+  /// A platform that two rods tie to the ground and two to each of two cranks, which a rod holds; of mobility 0.
+  static Planted on_two_rods_each(unsigned seed) {
+    Planted planted(seed);
+    planted.add_link(upright(0), false);
+    for (std::size_t crank = 1; crank <= 2; ++crank) {
+      planted.add_link(planted.rotation(), false);
+      planted.hinge(0, crank, planted.point(), column(planted.rotation(), 0), 0);
+    }
+    planted.add_link(planted.rotation(), false);
+    for (const std::size_t carrier : {0, 0, 1, 1, 2, 2})  // some from the platform
+      planted.number(0, 2) > 0 ? planted.tie(JointKind::distance, carrier, 3, false)
+                               : planted.tie(JointKind::distance, 3, carrier, false);
+    for (const std::size_t crank : {1, 2}) planted.tie(JointKind::distance, 0, crank, false);
+    return planted;
+  }
+
   kinematics::Robot robot;
   std::vector<Rotation> rotations;  ///< of the links
   std::vector<Point> origins;

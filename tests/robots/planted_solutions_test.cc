@@ -177,5 +177,30 @@ TEST_F(PlantedSolutions, OfSphericalRobotsAreFound) { check_many(Planted::spheri
 
 TEST_F(PlantedSolutions, OfSpatialRobotsAreFound) { check_many(Planted::spatial, 20); }
 
+// Too large to be solved here: the planted configuration has to keep the equations, and what keeps them the joints.
+TEST(PlantedPlatforms, OnTwoRodsEachHaveTheirEquations) {
+  const unsigned seeds = test::seeds(12);
+  int found = 0, held = 0;
+  std::mt19937 random(3);
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Planted planted = Planted::on_two_rods_each(seed);
+    const Assembly assembly = kinematics::assemble(planted.robot);
+    const NumericMechanism numeric(assembly.mechanism);
+    const auto x = configuration(planted, assembly, numeric);
+    ASSERT_TRUE(x);
+    EXPECT_LT(numeric.values(*x).lpNorm<Eigen::Infinity>(), 1e-9);
+    held += test::kernel(numeric.jacobian(*x)).cols() == 0;
+    for (int k = 0; k < 3; ++k) {
+      const auto other = numeric.random_configuration(random, 10);
+      if (!other) continue;
+      ++found;
+      EXPECT_LT(open_by(planted.robot, assembly, numeric.named(*other)), 1e-8);
+    }
+  }
+  EXPECT_GT(found, static_cast<int>(seeds) / 2);
+  EXPECT_GE(held, static_cast<int>(seeds) * 3 / 4) << "a crank whose rod is on its axis is not held";
+}
+
 }  // namespace
 }  // namespace corank

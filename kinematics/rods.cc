@@ -1,0 +1,173 @@
+#include "corank/kinematics/rods.h"
+
+#include <map>
+
+namespace corank::kinematics {
+namespace {
+
+const GiNaC::numeric kHalf(1, 2);
+
+}  // namespace
+
+Rods::Rods(const Robot& robot, const Bodies& bodies, const PlaneLoops& loops, Algebra& algebra, Draft& draft,
+           Positions& positions)
+    : robot_(robot),
+      bodies_(bodies),
+      algebra_(algebra),
+      draft_(draft),
+      positions_(positions),
+      other_(bodies.joints.size()),
+      said_(bodies.joints.size(), false) {
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> between;  // two bodies
+  for (std::size_t j = 0; j < bodies.joints.size(); ++j) {
+    const BodyJoint& rod = bodies.joints[j];
+    if (is_rod(rod.kind) && !loops.has(j)) between[std::minmax(rod.ends[0].body, rod.ends[1].body)].push_back(j);
+  }
+  const auto is_fixed = [&](std::size_t j) { return bodies.joints[j].kind == JointKind::distance; };
+  for (const auto& [two, rods] : between)
+    if (rods.size() == 2 && is_fixed(rods[0]) && is_fixed(rods[1])) {
+      other_[rods[0]] = rods[1];
+      other_[rods[1]] = rods[0];
+    }
+}
+
+ex Rods::length(const BodyJoint& rod) {
+  const Joint& of = robot_.joints[rod.index];
+  if (rod.kind == JointKind::distance) return algebra_.constant(of.length, of.where);
+  positions_.coordinate[rod.index] = draft_.length(of.name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
+  draft_.limit_last();
+  return *positions_.coordinate[rod.index];
+}
+
+Rods::Leg Rods::leg_of(std::size_t joint) const {
+  Leg leg{joint, other_[joint], bodies_.joints[joint].ends};
+  if (!leg.second) return leg;
+  const auto& second = bodies_.joints[*leg.second].ends;
+  const std::size_t same = second[0].body == leg.ends[0].body ? 0 : 1;
+  std::array<Vec, 2> apart, image;
+  for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+    const Vec &one = leg.ends[end].point, &two = second[end == 0 ? same : 1 - same].point;
+    apart[end] = algebra_.clean(kHalf * (one - two));
+    image[end] = positions_.image(leg.ends[end].body, apart[end]);
+    leg.ends[end].point = algebra_.clean(kHalf * (one + two));
+  }
+  leg.delta = algebra_.clean(image[1] - image[0]);
+  leg.delta_squared = dot(apart[0], apart[0]) + dot(apart[1], apart[1]) - 2 * dot(image[0], image[1]);
+  return leg;
+}
+
+// A component is no longer than the rod; the range is a little wider, so that the set reaches no end of it.
+std::optional<Range> Rods::range(const Leg& leg) const {
+  const Expression wider("11/10");
+  const Joint& of = joint(leg.first);
+  if (bodies_.joints[leg.first].kind != JointKind::distance) {
+    if (of.ranges.empty() || !of.ranges[0]) return std::nullopt;
+    return Range{-(wider * of.ranges[0]->upper), wider * of.ranges[0]->upper};
+  }
+  const auto value = [&](const Joint& rod) { return algebra_.value(algebra_.constant(rod.length, rod.where)); };
+  const bool second_is_longer = leg.second && value(joint(*leg.second)) > value(of);
+  const Expression longest = wider * (second_is_longer ? joint(*leg.second) : of).length;
+  return Range{-longest, longest};
+}
+
+Vec Rods::vector(const Leg& leg, bool auxiliary) {
+  const Joint& of = joint(leg.first);
+  Vec p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = draft_.length("P_" + of.name + "_" + "xyz"[i], range(leg), of.where, auxiliary);
+  return p;
+}
+
+ex Rods::square(const Leg& leg, const ex& l, const Vec& p) {
+  said_[leg.first] = true;
+  const ex own = is_extensible(bodies_.joints[leg.first].kind) ? ex(l * l) : algebra_.clean(l * l);
+  if (!leg.second) return own;
+  said_[*leg.second] = has_two_ = true;
+  const ex k = length(bodies_.joints[*leg.second]), other = algebra_.clean(k * k);
+  draft_.equation(4 * dot(p, leg.delta) - algebra_.clean(own - other), "two rods", joint(*leg.second).where,
+                  "the rods '" + joint(leg.first).name + "' and '" + joint(*leg.second).name + "'");
+  return algebra_.clean(kHalf * (own + other)) - leg.delta_squared;
+}
+
+Vec Rods::hang(const TreeEdge& edge) {
+  const Leg leg = leg_of(edge.joint);
+  const std::size_t far = 1 - edge.from;
+  const ex l = length(bodies_.joints[leg.first]);
+  const Vec p = vector(leg, false);
+  const ex sense = far == 1 ? 1 : -1;
+  const Vec forth = sense * p;  // from end 0 to end 1
+  const ex squared = square(leg, l, forth);
+  draft_.equation(dot(p, p) - squared, "rod", joint(leg.first).where);
+  keep_in_plane(leg, p);
+  hung_.push_back({leg, far, p, squared});
+  if (!leg.second) return p;
+  return algebra_.clean(p + sense * leg.delta);
+}
+
+// |p + R b − a|² = |p|² + |b|² + |a|² + 2 p·R b − 2 p·a − 2 a·R b, where |p|² is known and q = Rᵀp are coordinates: so the
+// difference of two legs' equations is linear in them.
+ex Rods::squared_distance(Hung& hung, const Vec& b, const Vec& a) {
+  const std::size_t g = bodies_.group[hung.leg.ends[hung.far].body];
+  const Vec c = positions_.frames.coefficients(g, b);
+  ex along = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (algebra_.is_zero(c[i])) continue;
+    if (!hung.seen[i]) {
+      const Joint& of = joint(hung.leg.first);
+      const ex q = draft_.length("q_" + of.name + "_" + std::to_string(i + 1), range(hung.leg), of.where, true);
+      draft_.equation(q - dot(hung.p, positions_.frames.direction(g, i)), "q", of.where);
+      hung.seen[i] = q;
+    }
+    along += c[i] * *hung.seen[i];
+  }
+  return hung.square + dot(b, b) + dot(a, a) + 2 * along - 2 * dot(hung.p, a) - 2 * dot(a, positions_.frames.image(g, b));
+}
+
+// The axes at a leg's universal joints and the leg, along p, are perpendicular to its inner axes: det(a, p, b) = 0.
+void Rods::keep_in_plane(const Leg& leg, const Vec& p) {
+  if (bodies_.joints[leg.first].kind != JointKind::universal_rod) return;
+  const auto axis = [&](std::size_t end) { return positions_.image(leg.ends[end].body, leg.ends[end].axis); };
+  draft_.equation(dot(p, cross(axis(1), axis(0))), "universal joints", joint(leg.first).where,
+                  "the leg '" + joint(leg.first).name + "'");
+}
+
+void Rods::close(std::size_t j) {
+  if (said_[j]) return;
+  const Joint& of = joint(j);
+  const std::string what = "the rod '" + of.name + "'";
+  const auto gap = [&](const Leg& leg) {
+    return algebra_.clean(positions_.place(leg.ends[1]) - positions_.place(leg.ends[0]));
+  };
+  const Leg one{j, {}, bodies_.joints[j].ends};
+  for (Hung& hung : hung_)
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+      if (one.ends[end].body != hung.leg.ends[hung.far].body) continue;
+      const Vec b = algebra_.clean(one.ends[end].point - hung.leg.ends[hung.far].point);
+      const Vec a = algebra_.clean(positions_.place(one.ends[1 - end]) - positions_.place(hung.leg.ends[1 - hung.far]));
+      if (depends_on(a, hung) || (other_[j] && !algebra_.is_constant(a))) continue;
+      keep_in_plane(one, gap(one));
+      const ex l = length(bodies_.joints[j]);
+      draft_.equation(squared_distance(hung, b, a) - l * l, "rod", of.where, what);
+      return;
+    }
+  const Leg leg = leg_of(j);
+  Vec p = gap(leg);
+  keep_in_plane(leg, p);
+  const ex l = length(bodies_.joints[j]);
+  if (leg.second) {
+    const Vec own = vector(leg, true);
+    for (std::size_t i = 0; i < 3; ++i) draft_.equation(own[i] - p[i], "two rods", of.where, what);
+    p = own;
+  }
+  const ex squared = square(leg, l, p);
+  draft_.equation(dot(p, p) - squared, "rod", of.where, what);
+}
+
+// Does a hang on the same rod?
+bool Rods::depends_on(const Vec& a, const Hung& hung) const {
+  for (const ex& component : a)
+    for (const ex& p : hung.p)
+      if (component.has(p)) return true;
+  return false;
+}
+
+}  // namespace corank::kinematics
