@@ -1,6 +1,5 @@
 // cuik, as in the CUIK suite: solves NAME.cuik with the parameters of NAME.param and writes NAME.sol. A face of `corank
 // solve`.
-#include <algorithm>
 #include <filesystem>
 
 #include "corank/app/run.h"
@@ -17,11 +16,6 @@ int main(int argc, char** argv) {
   const std::string file = with_extension(args[0], ".cuik"), name = file.substr(0, file.size() - 5);
   std::vector<std::string> command{"solve", file};
   if (std::filesystem::exists(name + ".param")) command.insert(command.end(), {"--param", name + ".param"});
-  const auto given = [&args](const std::string& option) {
-    return std::any_of(args.begin() + 1, args.end(),
-                       [&](const std::string& a) { return a == option || a.starts_with(option + "="); });
-  };
-  if (!given("--threads")) command.insert(command.end(), {"--threads", "0"});
   command.insert(command.end(), args.begin() + 1, args.end());
   command.insert(command.end(), {"-o", name + ".sol"});
   return run("cuik", command);

@@ -9,10 +9,10 @@ run() {
   echo "== corank $*"
   (cd "$root" && "$build/app/corank" "$@")
 }
-run solve models/dextar.cuik --set cspace --sigma 0.1 --threads 0
-run solve models/dextar.cuik --set forward --sigma 0.01 --threads 0
-run solve models/dextar.cuik --set inverse --sigma 0.01 --threads 0
-run report models/dextar.cuik --threads 0 -o build/dextar
+run solve models/dextar.cuik --set cspace --sigma 0.1
+run solve models/dextar.cuik --set forward --sigma 0.01
+run solve models/dextar.cuik --set inverse --sigma 0.01
+run report models/dextar.cuik -o build/dextar
 echo
 echo "== To look at, in a browser:"
 echo "   the report   file://$root/build/dextar/index.html"
