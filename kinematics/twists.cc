@@ -80,8 +80,8 @@ std::vector<Screw> Twists::screws(const BodyJoint& j) {
     case JointKind::prismatic: slide(linear(j), axis(j, 0)); break;
     case JointKind::parallelogram: {
       // The way from point to point turns about the axis: n × (p₁ − p₀) θ̇.
-      const Vec way = cleaned(place(j.ends[1]) - place(j.ends[0]));
-      slide(angular(j), cleaned(cross(axis(j, 0), way)));
+      const Vec way = algebra_.clean(place(j.ends[1]) - place(j.ends[0]));
+      slide(angular(j), algebra_.clean(cross(axis(j, 0), way)));
       break;
     }
     case JointKind::cylindrical:
@@ -180,7 +180,8 @@ std::size_t Twists::link_of(std::size_t body) const {
   return 0;
 }
 void Twists::add_velocity(Vec& sum, const std::vector<Screw>& screws, const Vec& c, int sign) const {
-  for (const Screw& s : screws) sum = sum + (sign * s.rate) * (s.turns ? cross(s.axis, cleaned(c - s.point)) : s.axis);
+  for (const Screw& s : screws)
+    sum = sum + (sign * s.rate) * (s.turns ? cross(s.axis, algebra_.clean(c - s.point)) : s.axis);
 }
 Vec Twists::turning(std::size_t body) const {
   Vec sum{0, 0, 0};
@@ -208,7 +209,7 @@ void Twists::close(const Dyad& dyad) {
   const Joint& of = joint(bodies_.joints[dyad.outer]);
   const auto [a, b] = axes(dyad);
   const Vec c = place(bodies_.joints[dyad.inner.joint].ends[dyad.inner.from]);
-  row(dot(turning(dyad.to) - turning(dyad.from), cleaned(cross(a, b))), of);
+  row(dot(turning(dyad.to) - turning(dyad.from), algebra_.clean(cross(a, b))), of);
   rows(velocity(dyad.to, c) - velocity(dyad.from, c), of);
 }
 
@@ -254,7 +255,7 @@ void Twists::close(const BodyJoint& j) {
   const std::size_t b0 = j.ends[0].body, b1 = j.ends[1].body;
   if (is_rod(j.kind)) {
     const Vec p0 = place(j.ends[0]), p1 = place(j.ends[1]);
-    const Vec way = cleaned(p1 - p0);
+    const Vec way = algebra_.clean(p1 - p0);
     ex work = dot(way, velocity(b1, p1) - velocity(b0, p0));
     if (is_extensible(j.kind)) work -= *positions_.coordinate[j.index] * linear(j);
     row(work, of);
@@ -311,7 +312,7 @@ void Twists::add(const Output& output) {
     case Output::Kind::direction: {
       // ẇ = ω × w is 0 where ω has no part across w.
       const Placement& at = bodies_.placement[output.link];
-      const Vec d = cleaned(algebra_.unit(at.rotation * algebra_.vector(output.point, output.where)));
+      const Vec d = algebra_.clean(algebra_.unit(at.rotation * algebra_.vector(output.point, output.where)));
       int i = 0;
       for (const Vec& across : frames_.across(group(body), d))
         draft_.velocity(

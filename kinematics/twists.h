@@ -52,7 +52,6 @@ class Twists {
  private:
   const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
   std::size_t group(std::size_t body) const { return bodies_.group[body]; }
-  Vec cleaned(const Vec& v) const { return algebra_.clean(v); }
   Vec place(const BodyEnd& end) const { return positions_.place(end); }
   Vec axis(const BodyJoint& j, std::size_t end);
   Vec own_axis(std::size_t joint, std::size_t body) const;
