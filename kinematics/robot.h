@@ -64,6 +64,8 @@ inline bool is_extensible(JointKind kind) {
 inline bool is_rod(JointKind kind) { return kind == JointKind::distance || is_extensible(kind); }
 /// Do the frames of a moving joint's two links stay as they are turned to each other?
 inline bool keeps_orientation(JointKind kind) { return kind == JointKind::prismatic || kind == JointKind::parallelogram; }
+/// Does the joint leave one way to move?
+inline bool moves_one_way(JointKind kind) { return kind == JointKind::revolute || keeps_orientation(kind); }
 /// Is the joint's one coordinate an angle, or a way along its axis, that other joints may follow?
 inline bool may_be_coupled(JointKind kind) { return kind == JointKind::revolute || keeps_orientation(kind); }
 

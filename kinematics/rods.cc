@@ -1,6 +1,8 @@
 #include "corank/kinematics/rods.h"
 
+#include <algorithm>
 #include <map>
+#include <set>
 
 namespace corank::kinematics {
 namespace {
@@ -18,17 +20,32 @@ Rods::Rods(const Robot& robot, const Bodies& bodies, const PlaneLoops& loops, Al
       positions_(positions),
       other_(bodies.joints.size()),
       said_(bodies.joints.size(), false) {
+  std::vector<std::size_t> held;  // joints that are looked at in one position
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> between;  // two bodies
   for (std::size_t j = 0; j < bodies.joints.size(); ++j) {
-    const BodyJoint& rod = bodies.joints[j];
-    if (is_rod(rod.kind) && !loops.has(j)) between[std::minmax(rod.ends[0].body, rod.ends[1].body)].push_back(j);
+    const auto& [index, kind, ends] = bodies.joints[j];
+    if (moves_one_way(kind) && is_held(joint(j))) held.push_back(j);
+    if (is_rod(kind) && !loops.has(j)) between[std::minmax(ends[0].body, ends[1].body)].push_back(j);
   }
+  std::set<std::size_t> at_rest{0};
+  walk(bodies, held, 0, [&](std::size_t, const BodyEnd&, const BodyEnd& far) { return at_rest.insert(far.body).second; });
   const auto is_fixed = [&](std::size_t j) { return bodies.joints[j].kind == JointKind::distance; };
   for (const auto& [two, rods] : between)
-    if (rods.size() == 2 && is_fixed(rods[0]) && is_fixed(rods[1])) {
+    if (rods.size() == 2 && std::ranges::all_of(rods, is_fixed) && !at_rest.contains(two.first) &&
+        !at_rest.contains(two.second)) {
       other_[rods[0]] = rods[1];
       other_[rods[1]] = rods[0];
     }
+}
+
+bool Rods::has_two() const {
+  return std::ranges::any_of(other_, [](const auto& other) { return other.has_value(); });
+}
+
+bool Rods::is_held(const Joint& of) const {
+  if (of.ranges.empty() || !of.ranges[0]) return false;
+  const auto value = [&](const Expression& e) { return algebra_.value(algebra_.constant(e, of.where)); };
+  return value(of.ranges[0]->lower) == value(of.ranges[0]->upper);
 }
 
 ex Rods::length(const BodyJoint& rod) {
@@ -39,8 +56,9 @@ ex Rods::length(const BodyJoint& rod) {
   return *positions_.coordinate[rod.index];
 }
 
-Rods::Leg Rods::leg_of(std::size_t joint) const {
-  Leg leg{joint, other_[joint], bodies_.joints[joint].ends};
+Rods::Leg Rods::leg_of(std::size_t joint) {
+  const BodyJoint& first = bodies_.joints[joint];
+  Leg leg{joint, other_[joint], first.ends, length(first)};
   if (!leg.second) return leg;
   const auto& second = bodies_.joints[*leg.second].ends;
   const std::size_t same = second[0].body == leg.ends[0].body ? 0 : 1;
@@ -56,7 +74,8 @@ Rods::Leg Rods::leg_of(std::size_t joint) const {
   return leg;
 }
 
-// A component is no longer than the rod; the range is a little wider, so that the set reaches no end of it.
+// A component is no longer than the rod, and half a sum than half the lengths'; the range is a little wider, so that the set
+// reaches no end of it.
 std::optional<Range> Rods::range(const Leg& leg) const {
   const Expression wider("11/10");
   const Joint& of = joint(leg.first);
@@ -64,9 +83,7 @@ std::optional<Range> Rods::range(const Leg& leg) const {
     if (of.ranges.empty() || !of.ranges[0]) return std::nullopt;
     return Range{-(wider * of.ranges[0]->upper), wider * of.ranges[0]->upper};
   }
-  const auto value = [&](const Joint& rod) { return algebra_.value(algebra_.constant(rod.length, rod.where)); };
-  const bool second_is_longer = leg.second && value(joint(*leg.second)) > value(of);
-  const Expression longest = wider * (second_is_longer ? joint(*leg.second) : of).length;
+  const Expression longest = wider * (leg.second ? (of.length + joint(*leg.second).length) / 2 : of.length);
   return Range{-longest, longest};
 }
 
@@ -77,30 +94,30 @@ Vec Rods::vector(const Leg& leg, bool auxiliary) {
   return p;
 }
 
-ex Rods::square(const Leg& leg, const ex& l, const Vec& p) {
-  said_[leg.first] = true;
-  const ex own = is_extensible(bodies_.joints[leg.first].kind) ? ex(l * l) : algebra_.clean(l * l);
-  if (!leg.second) return own;
-  said_[*leg.second] = has_two_ = true;
-  const ex k = length(bodies_.joints[*leg.second]), other = algebra_.clean(k * k);
-  draft_.equation(4 * dot(p, leg.delta) - algebra_.clean(own - other), "two rods", joint(*leg.second).where,
-                  "the rods '" + joint(leg.first).name + "' and '" + joint(*leg.second).name + "'");
-  return algebra_.clean(kHalf * (own + other)) - leg.delta_squared;
+ex Rods::keep_length(const Leg& leg, const Vec& p) {
+  const Joint& of = joint(leg.first);
+  ex square =
+      is_extensible(bodies_.joints[leg.first].kind) ? ex(leg.length * leg.length) : algebra_.clean(leg.length * leg.length);
+  if (leg.second) {
+    said_[*leg.second] = true;
+    const ex other = length(bodies_.joints[*leg.second]), other_square = algebra_.clean(other * other);
+    draft_.equation(4 * dot(p, leg.delta) - algebra_.clean(square - other_square), "two rods", joint(*leg.second).where,
+                    "the rods '" + of.name + "' and '" + joint(*leg.second).name + "'");
+    square = algebra_.clean(kHalf * (square + other_square)) - leg.delta_squared;
+  }
+  draft_.equation(dot(p, p) - square, "rod", of.where, "the rod '" + of.name + "'");
+  return square;
 }
 
 Vec Rods::hang(const TreeEdge& edge) {
   const Leg leg = leg_of(edge.joint);
   const std::size_t far = 1 - edge.from;
-  const ex l = length(bodies_.joints[leg.first]);
   const Vec p = vector(leg, false);
-  const ex sense = far == 1 ? 1 : -1;
-  const Vec forth = sense * p;  // from end 0 to end 1
-  const ex squared = square(leg, l, forth);
-  draft_.equation(dot(p, p) - squared, "rod", joint(leg.first).where);
+  const ex sense = far == 1 ? 1 : -1;  // of p, from end 0 to end 1
+  const ex square = keep_length(leg, sense * p);
   keep_in_plane(leg, p);
-  hung_.push_back({leg, far, p, squared});
-  if (!leg.second) return p;
-  return algebra_.clean(p + sense * leg.delta);
+  hung_.push_back({leg, far, p, square});
+  return leg.second ? algebra_.clean(p + sense * leg.delta) : p;
 }
 
 // |p + R b − a|² = |p|² + |b|² + |a|² + 2 p·R b − 2 p·a − 2 a·R b, where |p|² is known and q = Rᵀp are coordinates: so the
@@ -134,32 +151,25 @@ void Rods::close(std::size_t j) {
   if (said_[j]) return;
   const Joint& of = joint(j);
   const std::string what = "the rod '" + of.name + "'";
-  const auto gap = [&](const Leg& leg) {
-    return algebra_.clean(positions_.place(leg.ends[1]) - positions_.place(leg.ends[0]));
-  };
-  const Leg one{j, {}, bodies_.joints[j].ends};
-  for (Hung& hung : hung_)
-    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-      if (one.ends[end].body != hung.leg.ends[hung.far].body) continue;
-      const Vec b = algebra_.clean(one.ends[end].point - hung.leg.ends[hung.far].point);
-      const Vec a = algebra_.clean(positions_.place(one.ends[1 - end]) - positions_.place(hung.leg.ends[1 - hung.far]));
-      if (depends_on(a, hung) || (other_[j] && !algebra_.is_constant(a))) continue;
-      keep_in_plane(one, gap(one));
-      const ex l = length(bodies_.joints[j]);
-      draft_.equation(squared_distance(hung, b, a) - l * l, "rod", of.where, what);
-      return;
-    }
   const Leg leg = leg_of(j);
-  Vec p = gap(leg);
+  const Vec p = algebra_.clean(positions_.place(leg.ends[1]) - positions_.place(leg.ends[0]));
   keep_in_plane(leg, p);
-  const ex l = length(bodies_.joints[j]);
   if (leg.second) {
     const Vec own = vector(leg, true);
     for (std::size_t i = 0; i < 3; ++i) draft_.equation(own[i] - p[i], "two rods", of.where, what);
-    p = own;
+    keep_length(leg, own);
+    return;
   }
-  const ex squared = square(leg, l, p);
-  draft_.equation(dot(p, p) - squared, "rod", of.where, what);
+  for (Hung& hung : hung_)
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+      if (leg.ends[end].body != hung.leg.ends[hung.far].body) continue;
+      const Vec b = algebra_.clean(leg.ends[end].point - hung.leg.ends[hung.far].point);
+      const Vec a = algebra_.clean(positions_.place(leg.ends[1 - end]) - positions_.place(hung.leg.ends[1 - hung.far]));
+      if (depends_on(a, hung)) continue;
+      draft_.equation(squared_distance(hung, b, a) - leg.length * leg.length, "rod", of.where, what);
+      return;
+    }
+  keep_length(leg, p);
 }
 
 // Does a hang on the same rod?

@@ -3,13 +3,13 @@
 // A body hangs on a rod by the vector p along it, |p|² = l², three coordinates. Of another rod between the same bodies, or
 // bodies at rest with them, the equation is linear in p, in p's components along the body's own directions, and the frame.
 //
-// Two rods of fixed lengths l₊ and l₋ between the same two bodies, and no third, are taken together. With half the sum p of
-// their vectors, and half the difference δ, which the two bodies' orientations give,
+// Two rods of fixed lengths l₊ and l₋ between the same two bodies that move, and no third, are taken together. With half the
+// sum p of their vectors, and half the difference δ, which the two bodies' orientations give,
 //
 //   |p ± δ|² = l±²   ⟺   p·δ = (l₊² − l₋²)/4,   |p|² + |δ|² = (l₊² + l₋²)/2.
 //
-// So what two rods ask of the orientation stands apart: p·δ = 0 where they are equally long. Where the bodies move on other
-// bodies that another rod joins, p is three coordinates of its own.
+// So what two rods ask of the orientation stands apart: p·δ = 0 where they are equally long. Of rods from bodies at rest the
+// linear equations above are better.
 #pragma once
 
 #include <optional>
@@ -30,8 +30,8 @@ class Rods {
   Vec hang(const TreeEdge& edge);
   /// Of a rod that closes a loop.
   void close(std::size_t joint);
-  /// Were two of them taken together?
-  bool has_two() const { return has_two_; }
+  /// Are two of them taken together?
+  bool has_two() const;
 
  private:
   /// One rod, or two that are taken together, which are then one between the middles of their ends.
@@ -39,6 +39,7 @@ class Rods {
     std::size_t first = 0;  ///< in bodies_.joints
     std::optional<std::size_t> second{};
     std::array<BodyEnd, 2> ends{};
+    ex length{};  ///< the first's
     Vec delta{};  ///< of two: half the first's vector less half the second's, from end 0 to end 1
     ex delta_squared{};
   };
@@ -52,14 +53,16 @@ class Rods {
   };
 
   const Joint& joint(std::size_t j) const { return robot_.joints[bodies_.joints[j].index]; }
-  Leg leg_of(std::size_t joint) const;
+  /// Has the joint, which moves one way, a range of one value?
+  bool is_held(const Joint& of) const;
+  Leg leg_of(std::size_t joint);
   /// Of a component of a leg's vector.
   std::optional<Range> range(const Leg& leg) const;
   /// Coordinates for the leg's vector.
   Vec vector(const Leg& leg, bool auxiliary);
   ex squared_distance(Hung& hung, const Vec& b, const Vec& a);
-  /// What |p|² is, of a rod of length l or of two, the first of which has it; these also get the equation of p·δ.
-  ex square(const Leg& leg, const ex& l, const Vec& p);
+  /// The leg's equations, p from end 0 to end 1. Returns |p|².
+  ex keep_length(const Leg& leg, const Vec& p);
   void keep_in_plane(const Leg& leg, const Vec& p);
   bool depends_on(const Vec& a, const Hung& hung) const;
 
@@ -69,9 +72,8 @@ class Rods {
   Draft& draft_;
   Positions& positions_;
   std::vector<std::optional<std::size_t>> other_;  // of each joint in bodies_: the rod that it is taken together with
-  std::vector<bool> said_;                         // of each joint in bodies_: its equation was written
+  std::vector<bool> said_;                         // of each joint in bodies_: with the other's equations
   std::vector<Hung> hung_;
-  bool has_two_ = false;
 };
 
 }  // namespace corank::kinematics

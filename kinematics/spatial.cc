@@ -99,9 +99,13 @@ class SpatialRobot {
 
   /// Inputs and outputs: then Φ's own derivative says all.
   bool all_are_coordinates() const {
-    const auto is_input = [&](std::size_t j) { return !robot_.joints[j].actuated || positions_.coordinate[j]; };
-    const auto is_output = [](const Output& output) {
-      return output.kind == Output::Kind::joint || output.kind == Output::Kind::position;
+    const auto has_coordinate = [&](std::size_t j) {
+      const JointKind kind = robot_.joints[j].kind;
+      return (moves_one_way(kind) || is_extensible(kind)) && positions_.coordinate[j];
+    };
+    const auto is_input = [&](std::size_t j) { return !robot_.joints[j].actuated || has_coordinate(j); };
+    const auto is_output = [&](const Output& output) {
+      return output.kind == Output::Kind::joint ? has_coordinate(output.joint) : output.kind == Output::Kind::position;
     };
     const auto joints = std::views::iota(std::size_t{0}, robot_.joints.size());
     return std::ranges::all_of(joints, is_input) && std::ranges::all_of(robot_.outputs, is_output);
@@ -312,7 +316,7 @@ class SpatialRobot {
     const Placement& at = bodies_.placement[output.link];
     const std::size_t body = bodies_.of_link[output.link];
     const Vec local = algebra_.clean(at.translation + at.rotation * algebra_.vector(output.point, output.where));
-    const Vec p = algebra_.clean(*positions_.origins[body] + frames_.image(group(body), local));
+    const Vec p = place({body, local, {}, {}});
     positions_.output_points.emplace(output.name, p);
     return p;
   }

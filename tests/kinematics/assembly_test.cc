@@ -13,8 +13,10 @@
 namespace corank::kinematics {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<std::string> equations(const Assembly& a) {
   std::vector<std::string> texts;
@@ -240,6 +242,37 @@ revolute Je : b4 (1, 0, 0) + (0, 0, 1)  b0 (-3, 1/2, 0) + (0, 0, 1)
 )");
   EXPECT_EQ(a.mobility, 2);
   EXPECT_EQ(a.mobility_by_rank, 2);
+}
+
+// A plate on two arms, by two rods each.
+std::string plate_on_two_rods(const std::string& first) {
+  return "[LINKS]\nbase\narm\nfore\nplate\n[JOINTS]\n" + first +
+         "revolute q2 : base (5,0,0)+(0,1,0) fore (0,0,0)+(0,1,0)\n"
+         "sph_sph l1 : arm (2,1,0) plate (0,1,0) length 3\nsph_sph r1 : arm (2,-1,0) plate (0,-1,0) length 4\n"
+         "sph_sph l2 : fore (2,1,0) plate (1,1,0) length 3\nsph_sph r2 : plate (1,-1,0) fore (2,-1,1) length 3\n"
+         "[OUTPUTS]\nT : position of plate (0,0,1)\n";
+}
+
+TEST(Assembly, TakesTwoRodsOfMovingBodiesTogether) {
+  const auto vectors = [](const Assembly& a) {
+    std::vector<std::string> names;
+    for (const std::string& name : coordinate_names(a))
+      if (name.starts_with("P_") && name.ends_with("_x")) names.push_back(name);
+    return names;
+  };
+  const Assembly a = assembled(plate_on_two_rods("revolute q1 : base (0,0,0)+(0,1,0) arm (0,0,0)+(0,1,0) actuated\n"));
+  EXPECT_THAT(vectors(a), ElementsAre("P_l1_x", "P_l2_x"));
+  EXPECT_TRUE(velocity_rows(a).empty()) << "the equations' derivatives say all";
+  // Of a cylindrical joint the angle is no coordinate, and drives all the same.
+  const Assembly slides =
+      assembled(plate_on_two_rods("cylindrical q1 : base (0,0,0)+(0,1,0) arm (0,0,0)+(0,1,0) actuated\n"));
+  EXPECT_THAT(velocity_rows(slides), Contains(HasSubstr("w_q1")));
+  EXPECT_THAT(velocity_rows(slides), Contains(HasSubstr("v_q1")));
+  // An arm that is looked at in one position is at rest.
+  const Assembly held = assembled(plate_on_two_rods(
+      "revolute q1 : base (0,0,0)+(0,1,0) arm (0,0,0)+(0,1,0) zero (1,0,0) (1,0,0) range [1,1] actuated\n"));
+  EXPECT_THAT(coordinate_names(a), Not(Contains("q_l1_1")));
+  EXPECT_THAT(equations(held), Contains("1 + 8*w_plate_y + 4*P_l1_y + 4*q_l1_1 = 0")) << "linear";
 }
 
 // A rod from a point of the axis about which its other end turns says nothing, in space as in the plane; so does one whose

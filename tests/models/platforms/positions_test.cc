@@ -64,7 +64,7 @@ TEST_P(PosturesInTheSuite, AreIsolatedAndProven) {
 
 INSTANTIATE_TEST_SUITE_P(Platforms, PosturesInTheSuite,
                          testing::Values(SuiteWorld{"ParallelPlatform/Dietmeier.world", 40, 250'000},
-                                         SuiteWorld{"DeltaManipulator/DeltaManipulator.world", 8, 4000}),
+                                         SuiteWorld{"DeltaManipulator/DeltaManipulator.world", 8, 1000}),
                          [](const auto& w) { return std::filesystem::path(w.param.file).stem().string(); });
 
 // The motors at given angles. In the base's orientation the platform's middle is where three spheres meet.
