@@ -75,6 +75,11 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     for (const Limit& limit : without_unreached(result.system, touched, {.threads = options.threads}, processed, control))
       result.limits.push_back(limit.name);
   const auto count = [&](const std::vector<symbolic::Expression>& functions, bool first) {
+    if (control.ended()) {
+      Pieces unknown;
+      unknown.reason = "the analysis was ended by a limit";
+      return unknown;
+    }
     SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends);
     cells.refine(options.halvings, options.rounds, control);
     Pieces found = pieces(cells, control);

@@ -15,10 +15,12 @@ namespace {
 
 std::function<double()> the_clock;  // empty: the machine's
 
-// Until the model's equations are there all is one piece of work; later each call of GiNaC is one.
+// Until the first box all is one piece of work: the model's equations, their reduction, what a search sets up. Later each
+// call of GiNaC is one.
 Watch::Work deaf_work(const solve::Control& control) {
-  constexpr Watch::Work kModel = ~Watch::Work{0};
-  return control.stage() == solve::Stage::model ? kModel : symbolic::GinacLock::holder();
+  constexpr Watch::Work kFirst = ~Watch::Work{0};
+  const bool before_search = control.stage() <= solve::Stage::search && !control.has_counted();
+  return control.stage() == solve::Stage::model || before_search ? kFirst : symbolic::GinacLock::holder();
 }
 
 std::string ended_by(const solve::Control& control) {
@@ -55,9 +57,9 @@ LimitedRun::LimitedRun(solve::Control::Limits limits)
           control_.limits().time, Interrupt::stop(),
           [this](const std::string&) {
             control_.ended();
-            give_up(
-                fmt::format("\ncorank: stopped by {} while equations were derived; there is no result", ended_by(control_)),
-                nullptr);
+            give_up(fmt::format("\ncorank: stopped by {} while the question was prepared; there is no result",
+                                ended_by(control_)),
+                    nullptr);
           },
           Watch::kGrace, [this] { return deaf_work(control_); }) {}
 

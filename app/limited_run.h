@@ -25,8 +25,8 @@ class ClockOfCommands {
 };
 
 /// Of a command whose answer is valid at any time. Everything that has a control ends soon after the limit of time or the
-/// first signal. Where equations are still being derived Watch::kGrace later, the program ends with a statement, by exit
-/// status kIncomplete: nothing was found by then, and no file is left half written.
+/// first signal. Where Watch::kGrace later no search has begun, the program ends with a statement, by exit status
+/// kIncomplete: nothing was found by then, and no file is left half written. So does it where one call of GiNaC lasts so long.
 class LimitedRun {
  public:
   explicit LimitedRun(solve::Control::Limits limits);

@@ -9,13 +9,17 @@
 namespace corank::check {
 namespace {
 
-// Rows and columns in turn divided by the roots of their largest entries.
-std::vector<double> balanced(std::vector<double> a, std::size_t m, std::size_t k) {
+// Rows and columns in turn divided by the roots of their largest entries. `sizes`: those of the entries in a whole box, since
+// a column that is 0 in its middle but for roundings is to stay small.
+std::vector<double> balanced(std::vector<double> a, std::vector<double> sizes, std::size_t m, std::size_t k) {
   constexpr int kTurns = 8;
   const auto divide = [&](std::size_t first, std::size_t step, std::size_t count) {
     double largest = 0;
-    for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, std::fabs(a[first + i * step]));
-    for (std::size_t i = 0; largest > 0 && i < count; ++i) a[first + i * step] /= std::sqrt(largest);
+    for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, sizes[first + i * step]);
+    for (std::size_t i = 0; largest > 0 && i < count; ++i) {
+      sizes[first + i * step] /= std::sqrt(largest);
+      a[first + i * step] /= std::sqrt(largest);
+    }
   };
   for (int turn = 0; turn < kTurns; ++turn) {
     for (std::size_t i = 0; i < m; ++i) divide(i * k, 1, k);
@@ -85,11 +89,16 @@ bool KernelCheck::has_rank(std::size_t s, const Sides& x) const {
   if (s > std::min(m, k)) return false;
   std::vector<double> middle;
   for (const Enclosure& side : x) middle.push_back(side.mid());
-  std::vector<double> matrix(m * k);
-  for (std::size_t i = 0; i < m; ++i)
-    for (std::size_t j = 0; j < k; ++j) matrix[i * k + j] = rows_[i][j].approximate(middle);
+  std::vector<double> matrix, sizes;
+  Sides entries;
+  for (const std::vector<Row>& row : rows_)
+    for (const Row& entry : row) {
+      matrix.push_back(entry.approximate(middle));
+      entries.push_back(entry.value(x));
+      sizes.push_back(entries.back().mag());
+    }
   // Complete pivoting picks the submatrix, whatever the units of its entries.
-  std::vector<double> t = balanced(matrix, m, k);
+  std::vector<double> t = balanced(matrix, sizes, m, k);
   std::vector<std::size_t> rows, columns;
   for (std::size_t step = 0; step < s; ++step) {
     std::size_t row = m, column = k;
@@ -114,14 +123,11 @@ bool KernelCheck::has_rank(std::size_t s, const Sides& x) const {
     for (const std::size_t j : columns) minor.push_back(matrix[i * k + j]);
   const std::vector<double> y = inverse(minor, s);
   if (y.size() != s * s) return false;
-  std::vector<Sides> entries(s);
-  for (std::size_t b = 0; b < s; ++b)
-    for (const std::size_t j : columns) entries[b].push_back(rows_[rows[b]][j].value(x));
   std::vector<double> excess;
   for (std::size_t a = 0; a < s; ++a)
     for (std::size_t j = 0; j < s; ++j) {
       Enclosure entry(a == j ? -1.0 : 0.0);
-      for (std::size_t b = 0; b < s; ++b) entry.add_product(y[a * s + b], entries[b][j]);
+      for (std::size_t b = 0; b < s; ++b) entry.add_product(y[a * s + b], entries[rows[b] * k + columns[j]]);
       excess.push_back(entry.mag());
     }
   return is_contraction(excess, s);

@@ -96,6 +96,7 @@ class Control {
   /// A box is about to be processed; false: there is to be none.
   bool count_box();
   void count_boxes(std::uint64_t boxes) { boxes_ += boxes; }
+  bool has_counted() const { return boxes_ > 0; }
   /// So many may be processed still, where there is a limit.
   std::uint64_t boxes_left() const { return limits_.boxes - std::min(limits_.boxes, boxes_.load()); }
   /// What is left of the limits, and no more than so many seconds and boxes, 0: no matter how many. For a search under a

@@ -86,7 +86,7 @@ class SumSearch {
       if (!place.contains(p)) return std::nullopt;
       matrix.at(place[p], n) = c;
     }
-    matrix.reduce();
+    if (!matrix.reduce(ended_)) return std::nullopt;
     std::vector<const Multiple*> used;
     for (std::size_t i = 0; i < place.size(); ++i) {
       std::size_t pivot = 0;

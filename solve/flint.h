@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "corank/core/ended.h"
 #include "corank/core/exact_number.h"
 
 namespace corank::solve {
@@ -66,10 +67,14 @@ class PrimeMatrix {
   PrimeMatrix(const PrimeMatrix&) = delete;
   PrimeMatrix& operator=(const PrimeMatrix&) = delete;
   mp_limb_t& at(std::size_t i, std::size_t j) { return nmod_mat_entry(m_, i, j); }
-  /// To reduced row echelon form.
-  void reduce() { nmod_mat_rref(m_); }
+  /// To reduced row echelon form, by steps for few rows, which suits the sparse matrices of equations, and can be ended:
+  /// false where it was, and the matrix is of no use.
+  bool reduce(const Ended& ended);
 
  private:
+  std::size_t lightest_row(std::size_t from, std::size_t column);
+  void subtract(std::size_t pivot, std::size_t from, std::size_t column);
+
   nmod_mat_t m_;
 };
 

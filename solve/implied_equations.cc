@@ -155,7 +155,7 @@ class Finder {
       for (const auto& [p, c] : multiples[i].row) matrix.at(i, column[p]) = c;
       matrix.at(i, width + i) = 1;
     }
-    matrix.reduce();
+    if (!matrix.reduce(ended_)) return false;
     std::vector<Sum> sums;
     for (std::size_t i = 0; i < multiples.size(); ++i) {
       std::size_t pivot = 0;
@@ -173,7 +173,7 @@ class Finder {
   }
 
   // Another basis of the same sums: the last products are eliminated first.
-  static std::vector<Sum> in_reverse_order(const std::vector<Sum>& sums) {
+  std::vector<Sum> in_reverse_order(const std::vector<Sum>& sums) const {
     if (sums.empty()) return {};
     const std::size_t width = sums[0].terms.size(), factors = sums[0].factors.size();
     PrimeMatrix matrix(sums.size(), width + factors);
@@ -181,7 +181,7 @@ class Finder {
       for (std::size_t k = 0; k < width; ++k) matrix.at(i, k) = sums[i].terms[(2 * width - 2 - k) % width];
       for (std::size_t k = 0; k < factors; ++k) matrix.at(i, width + k) = sums[i].factors[k];
     }
-    matrix.reduce();
+    if (!matrix.reduce(ended_)) return {};
     std::vector<Sum> result;
     for (std::size_t i = 0; i < sums.size(); ++i) {
       Sum s;
@@ -192,9 +192,10 @@ class Finder {
     return result;
   }
 
-  // Sums of few terms: those given, and of each two, made as short as they get.
-  static std::vector<Sum> short_ones(std::vector<Sum> sums) {
+  // Sums of few terms: those given, and of each two, made as short as they get; some of them where the run has ended.
+  std::vector<Sum> short_ones(std::vector<Sum> sums) const {
     for (Sum& s : sums) {
+      if (is_over(ended_)) return {};
       std::vector<Sum> others;
       for (const Sum& t : sums)
         if (&t != &s) others.push_back(t);
@@ -206,7 +207,7 @@ class Finder {
     for (const Sum& s : sums) seen.insert(s.terms);
     const std::size_t basis = sums.size();
     for (std::size_t i = 0; i < basis; ++i)
-      for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t j = 0; j < i && !is_over(ended_); ++j)
         for (std::size_t k = 0; k + 1 < sums[i].terms.size(); ++k) {
           if (sums[i].terms[k] == 0 || sums[j].terms[k] == 0) continue;
           const mp_limb_t q = nmod_div(sums[i].terms[k], sums[j].terms[k], PrimeMatrix::field());

@@ -266,8 +266,9 @@ TEST(RedundantMechanisms, AThirdMotorRidsAFiveBarOfItsForwardSingularities) {
   const result::Result r = solved(model, SingularitySet::forward);
   EXPECT_TRUE(r.cover.complete());
   EXPECT_TRUE(r.cover.boxes.empty());
-  const result::Result inverse = solved(model, SingularitySet::inverse, 0.2);
+  const result::Result inverse = solved(model, SingularitySet::inverse, 0.1);
   EXPECT_GT(inverse.cover.count(Verdict::regular), 50u);
+  EXPECT_TRUE(verified(inverse)) << "the column of an arm that is folded is 0 but for roundings in the middle of its box";
   EXPECT_EQ(result::type_tally(inverse.cover).unproven, 0u) << "what is undecided names an exact point";
 }
 
