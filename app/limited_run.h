@@ -26,7 +26,8 @@ class ClockOfCommands {
 
 /// Of a command whose answer is valid at any time. Everything that has a control ends soon after the limit of time or the
 /// first signal. Where Watch::kGrace later no search has begun, the program ends with a statement, by exit status
-/// kIncomplete: nothing was found by then, and no file is left half written. So does it where one call of GiNaC lasts so long.
+/// kIncomplete: nothing was found by then, and no file is left half written. So it does where one call of GiNaC lasts that
+/// long.
 class LimitedRun {
  public:
   explicit LimitedRun(solve::Control::Limits limits);

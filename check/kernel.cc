@@ -9,8 +9,8 @@
 namespace corank::check {
 namespace {
 
-// Rows and columns in turn divided by the roots of their largest entries. `sizes`: those of the entries in a whole box, since
-// a column that is 0 in its middle but for roundings is to stay small.
+// Rows and columns in turn divided by the roots of their largest entries. `sizes`: those of the entries in a whole box,
+// since a column that is 0 in its middle but for roundings is to stay small.
 std::vector<double> balanced(std::vector<double> a, std::vector<double> sizes, std::size_t m, std::size_t k) {
   constexpr int kTurns = 8;
   const auto divide = [&](std::size_t first, std::size_t step, std::size_t count) {

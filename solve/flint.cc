@@ -7,7 +7,8 @@
 
 namespace corank::solve {
 
-// Of the rows from `from` on that are not 0 in the column the one with the fewest entries; the number of rows: there is none.
+// Of the rows from `from` on that are not 0 in the column the one with the fewest entries; the number of rows where there is
+// none.
 std::size_t PrimeMatrix::lightest_row(std::size_t from, std::size_t column) {
   const std::size_t rows = nmod_mat_nrows(m_), columns = nmod_mat_ncols(m_);
   std::size_t lightest = rows, least = columns + 1;
