@@ -7,7 +7,6 @@
 #include "corank/analyze/limits.h"
 #include "corank/analyze/topology.h"
 #include "corank/core/rounding.h"
-#include "corank/core/signs.h"
 #include "corank/result/locus_words.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/algebrizer.h"

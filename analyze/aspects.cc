@@ -5,7 +5,6 @@
 #include "corank/analyze/topology_with_ends.h"
 #include "corank/certify/determinant.h"
 #include "corank/core/rounding.h"
-#include "corank/core/signs.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/determinant_factors.h"

@@ -3,10 +3,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "corank/certify/determinant_sign.h"
+#include "corank/certify/determinant.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
-#include "corank/core/signs.h"
 #include "corank/solve/propagation.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/determinant_factors.h"

@@ -7,7 +7,6 @@
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
-#include "corank/core/signs.h"
 #include "corank/solve/problem.h"
 
 namespace corank::analyze {

@@ -69,7 +69,7 @@ void multiply(AlgebraicNumber::Bounds& x, const ExactNumber& from, const ExactNu
 AlgebraicNumber::AlgebraicNumber(RationalPolynomial p, ExactNumber lower, ExactNumber upper)
     : p_(std::move(p)), lower_(std::move(lower)), upper_(std::move(upper)) {
   trim(p_);
-  const bool rational = std::all_of(p_.begin(), p_.end(), [](const ExactNumber& c) { return c.is_rational(); });
+  const bool rational = std::ranges::all_of(p_, [](const ExactNumber& c) { return c.is_rational(); });
   if (!rational || !lower_.is_rational() || !upper_.is_rational())
     throw std::invalid_argument("an algebraic number needs a rational polynomial and a rational interval");
   if (p_.size() < 2 || (upper_ - lower_).sign() != 1)

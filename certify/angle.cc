@@ -1,41 +1,27 @@
 #include "corank/certify/angle.h"
 
-#include <mpfr.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "corank/certify/multiprecision.h"
 
 namespace corank::certify {
 namespace {
 
 // Wide enough that the only rounding that shows is nearly always the last one, to double. Wider is slower.
-constexpr mpfr_prec_t kBits = 80;
-
-class Real {
- public:
-  Real() { mpfr_init2(value_, kBits); }
-  ~Real() { mpfr_clear(value_); }
-  Real(const Real&) = delete;
-  Real& operator=(const Real&) = delete;
-  mpfr_ptr get() { return value_; }
-
- private:
-  mpfr_t value_;
-};
+constexpr int kBits = 72;
 
 // atan2(s, c) + 2πk, rounded in the direction `rounding` (RNDD or RNDU) at every step.
 double angle(double c, double s, long k, mpfr_rnd_t rounding) {
-  Real x, y;
-  mpfr_set_d(x.get(), c, MPFR_RNDN);  // exact
-  mpfr_set_d(y.get(), s, MPFR_RNDN);  // exact
-  mpfr_atan2(y.get(), y.get(), x.get(), rounding);
-  if (k == 0) return mpfr_get_d(y.get(), rounding);
+  const Precision precision(kBits);
+  Real x = c, y = s;  // exact
+  mpfr_atan2(y.data(), y.data(), x.data(), rounding);
+  if (k == 0) return mpfr_get_d(y.data(), rounding);
   Real turn;
-  mpfr_const_pi(turn.get(), (k >= 0) == (rounding == MPFR_RNDU) ? MPFR_RNDU : MPFR_RNDD);
-  mpfr_mul_si(turn.get(), turn.get(), 2 * k, rounding);
-  mpfr_add(y.get(), y.get(), turn.get(), rounding);
-  return mpfr_get_d(y.get(), rounding);
+  mpfr_const_pi(turn.data(), (k >= 0) == (rounding == MPFR_RNDU) ? MPFR_RNDU : MPFR_RNDD);
+  mpfr_mul_si(turn.data(), turn.data(), 2 * k, rounding);
+  mpfr_add(y.data(), y.data(), turn.data(), rounding);
+  return mpfr_get_d(y.data(), rounding);
 }
 
 // A corner of the box with so many extra turns.

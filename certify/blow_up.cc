@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,11 +17,7 @@ namespace {
 using Exponents = std::vector<int>;
 using Form = std::map<Exponents, RationalPolynomial>;
 
-int degree(const Exponents& e) {
-  int sum = 0;
-  for (int k : e) sum += k;
-  return sum;
-}
+int degree(const Exponents& e) { return std::accumulate(e.begin(), e.end(), 0); }
 
 class BlowUp {
  public:
@@ -59,7 +56,7 @@ class BlowUp {
       Form product{{Exponents(n_, 0), {m.coefficient}}};
       for (const Factor& x : m.factors)
         for (int k = 0; k < x.power; ++k) {
-          const std::size_t v = static_cast<std::size_t>(x.variable);
+          const std::size_t v = x.variable;
           Form next;
           for (const auto& [e, c] : product) {
             const RationalPolynomial constant = t_.product(c, point_.coordinates[v]);

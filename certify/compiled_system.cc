@@ -94,7 +94,7 @@ CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial>
 }
 
 void CompiledSystem::set_scales(std::vector<double> scales) {
-  CORANK_CHECK(scales.size() == static_cast<std::size_t>(variables_));
+  CORANK_CHECK(static_cast<int>(scales.size()) == variables_);
   for (const double scale : scales) CORANK_CHECK(scale > 0 && std::isfinite(scale));
   scales_ = std::move(scales);
 }
@@ -140,14 +140,6 @@ Interval CompiledSystem::evaluate_at(int row, const double* x) const {
   return sum;
 }
 
-void CompiledSystem::slopes(std::span<const Interval> x, const double* c, std::span<Interval> s) const {
-  slopes(0, equations_, x, c, s);
-}
-
-void CompiledSystem::slopes(int row, std::span<const Interval> x, const double* c, std::span<Interval> s) const {
-  slopes(row, row + 1, x, c, s);
-}
-
 void CompiledSystem::slopes(int from, int to, std::span<const Interval> x, const double* c, std::span<Interval> s) const {
   std::fill(s.begin() + row_begin_[from], s.begin() + row_begin_[to], Interval());
   for (int k = term_begin_[from]; k < term_begin_[to]; ++k) {
@@ -175,12 +167,6 @@ void CompiledSystem::slopes(int from, int to, std::span<const Interval> x, const
       }
     }
   }
-}
-
-void CompiledSystem::jacobian(std::span<const Interval> x, std::span<Interval> j) const { jacobian(0, equations_, x, j); }
-
-void CompiledSystem::jacobian(int row, std::span<const Interval> x, std::span<Interval> j) const {
-  jacobian(row, row + 1, x, j);
 }
 
 void CompiledSystem::jacobian(int from, int to, std::span<const Interval> x, std::span<Interval> j) const {

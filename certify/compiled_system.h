@@ -70,13 +70,15 @@ class CompiledSystem {
   /// Slopes of the equations: s with f(x) − f(c) ∈ s (x − c) for every x ∈ X, c the given point (inside X or not). For a
   /// quadratic f this is J((X + c)/2), half as wide as J(X). Slopes about one centre serve existence, never uniqueness.
   /// Source: key Neumaier1990, § 2.3; certify/trigonometric.h.
-  void slopes(std::span<const Interval> x, const double* c, std::span<Interval> s) const;
+  void slopes(std::span<const Interval> x, const double* c, std::span<Interval> s) const { slopes(0, equations_, x, c, s); }
   /// The same of one row of any kind, into its own entries of s.
-  void slopes(int row, std::span<const Interval> x, const double* c, std::span<Interval> s) const;
+  void slopes(int row, std::span<const Interval> x, const double* c, std::span<Interval> s) const {
+    slopes(row, row + 1, x, c, s);
+  }
   /// Interval Jacobian of the equations: encloses ∂f_i/∂x_j(x) for every x ∈ X.
-  void jacobian(std::span<const Interval> x, std::span<Interval> j) const;
+  void jacobian(std::span<const Interval> x, std::span<Interval> j) const { jacobian(0, equations_, x, j); }
   /// The same of one row of any kind, into its own entries of j.
-  void jacobian(int row, std::span<const Interval> x, std::span<Interval> j) const;
+  void jacobian(int row, std::span<const Interval> x, std::span<Interval> j) const { jacobian(row, row + 1, x, j); }
   /// Jacobian at a point in plain floating point, for heuristics only: nothing is proven by it.
   void approximate_jacobian(const double* x, double* j) const;
 

@@ -1,14 +1,13 @@
 #include "corank/certify/contact.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <optional>
 
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/implied.h"
 #include "corank/certify/newton.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
@@ -45,25 +44,26 @@ class ContactTest {
 
   // Does a side certainly hold the end?
   bool holds_end(const Box& x, const Contact& c) const {
-    return c.with != Contact::With::inequality && x[static_cast<std::size_t>(c.index)].contains(end(c));
+    return c.with != Contact::With::inequality && x[c.index].contains(end(c));
   }
 
   // The intermediate value theorem, for the contact's dependent variable over the corners of the box's free sides.
   bool crosses_end(const CoverBox& b, const Box& region, const Contact& c) {
     constexpr std::size_t kMostFree = 3;
     if (c.with == Contact::With::inequality || b.free.size() > kMostFree) return false;
-    const auto p = preconditioner(b, region);
-    if (!p) return false;
+    const std::vector<int> dependent = all_but(b.free, compiled_.variables());
+    if (static_cast<int>(dependent.size()) != compiled_.equations()) return false;
+    const Preconditioner p = midpoint_preconditioner(compiled_, midpoint(region), dependent);
     bool beneath = false, above = false;
     for (unsigned corner = 0; corner < 1U << b.free.size() && !(beneath && above); ++corner) {
       Box x = region;
       for (std::size_t k = 0; k < b.free.size(); ++k) {
-        const Interval& side = b.box[static_cast<std::size_t>(b.free[k])];
-        x[static_cast<std::size_t>(b.free[k])] = (corner >> k & 1U) != 0 ? side.hi() : side.lo();
+        const Interval& side = b.box[b.free[k]];
+        x[b.free[k]] = (corner >> k & 1U) != 0 ? side.hi() : side.lo();
       }
       for (int step = 0; step < 4; ++step)  // the one solution over this corner stays
-        if (NewtonStep(compiled_, *p, x, workspace_).outcome().empty) return false;
-      const Interval& value = x[static_cast<std::size_t>(c.index)];
+        if (NewtonStep(compiled_, p, x, workspace_).outcome().empty) return false;
+      const Interval& value = x[c.index];
       beneath = beneath || value.hi() < end(c).lo();
       above = above || value.lo() > end(c).hi();
     }
@@ -71,34 +71,7 @@ class ContactTest {
   }
 
  private:
-  const Interval& end(const Contact& c) const {
-    return (c.with == Contact::With::lower_end ? lower_ : upper_)[static_cast<std::size_t>(c.index)];
-  }
-
-  // The inverse of the dependent variables' Jacobian at the region's middle, in floating point: any matrix is valid.
-  std::optional<Preconditioner> preconditioner(const CoverBox& b, const Box& region) const {
-    const std::size_t n = region.size(), m = static_cast<std::size_t>(compiled_.equations());
-    Preconditioner p;
-    for (int j = 0; j < static_cast<int>(n); ++j)
-      if (std::find(b.free.begin(), b.free.end(), j) == b.free.end()) p.dependent.push_back(j);
-    if (p.dependent.size() != m) return std::nullopt;
-    std::vector<double> middle, entries(static_cast<std::size_t>(compiled_.entries()));
-    for (const Interval& side : region) middle.push_back(side.mid());
-    compiled_.approximate_jacobian(middle.data(), entries.data());
-    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(m));
-    for (int row = 0; row < compiled_.equations(); ++row) {
-      p.equations.push_back(row);
-      for (int e = compiled_.row_begin(row); e < compiled_.row_begin(row + 1); ++e) {
-        const auto at = std::find(p.dependent.begin(), p.dependent.end(), compiled_.column(e));
-        if (at != p.dependent.end()) jacobian(row, at - p.dependent.begin()) = entries[static_cast<std::size_t>(e)];
-      }
-    }
-    const Eigen::MatrixXd inverse = jacobian.fullPivLu().inverse();
-    if (!inverse.allFinite()) return std::nullopt;
-    for (Eigen::Index i = 0; i < inverse.rows(); ++i)
-      for (Eigen::Index k = 0; k < inverse.cols(); ++k) p.y.push_back(inverse(i, k));
-    return p;
-  }
+  const Interval& end(const Contact& c) const { return (c.with == Contact::With::lower_end ? lower_ : upper_)[c.index]; }
 
   CompiledSystem compiled_;
   std::vector<Interval> lower_, upper_;  // of the exact ends; infinite where that is no end
@@ -119,11 +92,11 @@ void visit_contacts(const System& system, const Cover& cover,
     test.find(b.box, contacts);
     const bool alone = b.verdict == Verdict::boundary && contacts.size() == 1;
     for (Contact& c : contacts) {
-      const bool is_free = std::find(b.free.begin(), b.free.end(), c.index) != b.free.end();
+      const bool is_free = std::ranges::find(b.free, c.index) != b.free.end();
       if (is_free) {
         c.reached = (b.verdict == Verdict::regular || alone) && test.holds_end(b.box, c);
       } else if (int& so_far = tries[{c.with, c.index}]; alone && b.region >= 0 && so_far < kTries) {
-        c.reached = test.crosses_end(b, cover.regions[static_cast<std::size_t>(b.region)], c);
+        c.reached = test.crosses_end(b, cover.regions[b.region], c);
         so_far = c.reached ? kTries : so_far + 1;
       }
     }

@@ -1,22 +1,13 @@
 #include "corank/certify/distinct.h"
 
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 
 namespace corank::certify {
-namespace {
-
-bool contains(const std::vector<Interval>& outer, std::span<const Interval> inner) {
-  for (std::size_t j = 0; j < outer.size(); ++j)
-    if (!outer[j].contains(inner[j])) return false;
-  return true;
-}
-
-}  // namespace
 
 Identity compare_isolated(const Sheet& a, const Sheet& b) {
   CORANK_CHECK(a.proven && b.proven && a.dependent.size() == a.region.size() && b.dependent.size() == b.region.size());
-  for (std::size_t j = 0; j < a.image.size(); ++j)
-    if (!a.image[j].overlaps(b.image[j])) return Identity::different;
+  if (!overlap(a.image, b.image)) return Identity::different;
   if (contains(a.region, b.image) || contains(b.region, a.image)) return Identity::same;
   return Identity::unknown;
 }
@@ -30,7 +21,7 @@ bool is_solution_of_region(const ProvenZero& zero, const Reduction& reduction, c
   CORANK_CHECK(zero.sides.size() == reduction.kept.size());
   if (reduction.tolerant || reduction.subset) return false;
   for (std::size_t j = 0; j < zero.sides.size(); ++j) {
-    const Interval& side = region.at(static_cast<std::size_t>(reduction.kept[j]));
+    const Interval& side = region.at(reduction.kept[j]);
     const auto& [lower, upper] = zero.sides[j];
     if ((lower - ExactNumber::dyadic(side.lo())).sign() == -1 || (upper - ExactNumber::dyadic(side.hi())).sign() == 1)
       return false;

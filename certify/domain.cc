@@ -1,8 +1,9 @@
 #include "corank/certify/domain.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "corank/core/cover.h"
 
 namespace corank::certify {
 namespace {
@@ -32,7 +33,7 @@ Location DomainTest::locate(const CompiledSystem& compiled, std::span<const Inte
                             const std::vector<int>* dependent, Value value) const {
   Location location = Location::inside;
   const auto is_free = [&](std::size_t j) {
-    return dependent && std::find(dependent->begin(), dependent->end(), static_cast<int>(j)) == dependent->end();
+    return dependent && std::ranges::find(*dependent, static_cast<int>(j)) == dependent->end();
   };
   for (std::size_t j = 0; j < domain_.size(); ++j) {
     if (!domain_[j].overlaps(x[j])) return Location::outside;
@@ -59,6 +60,25 @@ Location DomainTest::locate_zeros(const NewtonStep& step, std::span<const Interv
     if (!g.intersect(step.value_at_zeros(row, x))) return Interval(-1.0);
     return g;
   });
+}
+
+RedundantEquations::RedundantEquations(const System& system) {
+  tolerance_ = kPartialTolerance * system.coefficient_tolerance;
+  for (const Polynomial& f : system.equations) {
+    double sum = 0;
+    for (const Monomial& m : f.monomials) sum += m.enclosure.mag();
+    bounds_.push_back(tolerance_ * sum);
+  }
+}
+
+bool RedundantEquations::hold(const DomainTest& domain, const NewtonStep& step, std::span<const Interval> x) const {
+  if (domain.locate_zeros(step, x, tolerance_) != Location::inside) return false;
+  const std::vector<int>& equations = step.equations();
+  for (int row = 0; row < step.system().equations(); ++row) {
+    if (std::ranges::find(equations, row) != equations.end()) continue;
+    if (!(step.value_at_zeros(row, x).mag() <= bounds_[row])) return false;
+  }
+  return true;
 }
 
 }  // namespace corank::certify

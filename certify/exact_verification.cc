@@ -7,9 +7,7 @@
 namespace corank::certify {
 namespace {
 
-bool is_kernel(const System& system, int j) {
-  return system.variables[static_cast<std::size_t>(j)].kind == VariableKind::kernel;
-}
+bool is_kernel(const System& system, int j) { return system.variables[j].kind == VariableKind::kernel; }
 
 // Substitutes the point's coordinates. Requires that all of f's variables are known.
 RationalPolynomial value_of(const Polynomial& f, const ExactPoint& point, const AlgebraicNumber& t) {
@@ -19,8 +17,7 @@ RationalPolynomial value_of(const Polynomial& f, const ExactPoint& point, const 
       throw std::domain_error(f.source + " has a coefficient that is not a rational number, or a sine or cosine");
     RationalPolynomial product{m.coefficient};
     for (const Factor& x : m.factors)
-      for (int k = 0; k < x.power; ++k)
-        product = t.product(product, point.coordinates[static_cast<std::size_t>(x.variable)]);
+      for (int k = 0; k < x.power; ++k) product = t.product(product, point.coordinates[x.variable]);
     value = sum(value, product);
   }
   return t.reduced(std::move(value));
@@ -81,11 +78,11 @@ KernelMatrix kernel_matrix(const System& system) {
       }
       if (unknown < 0 || unknown > matrix.unknowns.back()) return false;
       std::erase_if(entry.factors, [&](const Factor& x) { return x.variable == unknown; });
-      const auto column = std::find(matrix.unknowns.begin(), matrix.unknowns.end(), unknown) - matrix.unknowns.begin();
-      row[static_cast<std::size_t>(column)].monomials.push_back(std::move(entry));
+      const auto column = std::ranges::find(matrix.unknowns, unknown) - matrix.unknowns.begin();
+      row[column].monomials.push_back(std::move(entry));
       return true;
     };
-    if (f.monomials.empty() || !std::all_of(f.monomials.begin(), f.monomials.end(), place)) continue;
+    if (f.monomials.empty() || !std::ranges::all_of(f.monomials, place)) continue;
     matrix.equations.push_back(static_cast<int>(i));
     matrix.rows.push_back(std::move(row));
   }
@@ -97,24 +94,23 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point, 
     if (point.coordinates.size() != system.variables.size()) return fails("the point has another number of coordinates");
     if (system.coefficient_tolerance > 0) return fails("the coefficients have a tolerance");
     const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
-    const auto known = [&](int j) { return !point.coordinates[static_cast<std::size_t>(j)].empty(); };
+    const auto known = [&](int j) { return !point.coordinates[j].empty(); };
     for (int j = 0; j < system.size(); ++j) {
       if (!known(j)) {
-        if (!is_kernel(system, j))
-          return fails("the coordinate " + system.variables[static_cast<std::size_t>(j)].name + " is missing");
+        if (!is_kernel(system, j)) return fails("the coordinate " + system.variables[j].name + " is missing");
         continue;
       }
-      const Variable& v = system.variables[static_cast<std::size_t>(j)];
-      const RationalPolynomial& x = point.coordinates[static_cast<std::size_t>(j)];
+      const Variable& v = system.variables[j];
+      const RationalPolynomial& x = point.coordinates[j];
       const bool rational = v.lower.is_rational() && v.upper.is_rational() &&
-                            std::all_of(x.begin(), x.end(), [](const ExactNumber& c) { return c.is_rational(); });
+                            std::ranges::all_of(x, [](const ExactNumber& c) { return c.is_rational(); });
       if (!rational) return fails("the domain of " + v.name + " or its coordinate is not rational");
       if (t.sign(sum(x, {-v.lower})).value_or(-1) < 0 || t.sign(sum({v.upper}, scaled(x, ExactNumber(-1)))).value_or(-1) < 0)
         return fails(v.name + " is not proven to lie in its domain");
     }
     const auto is_known = [&](const Polynomial& f) {
-      return std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
-        return std::all_of(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return known(x.variable); });
+      return std::ranges::all_of(f.monomials, [&](const Monomial& m) {
+        return std::ranges::all_of(m.factors, [&](const Factor& x) { return known(x.variable); });
       });
     };
     for (const Polynomial& f : system.equations) {
@@ -155,7 +151,7 @@ std::optional<int> exact_rank(const System& system, const PolynomialMatrix& matr
     for (std::size_t k = 0; k < matrix.entries.size(); ++k) {
       for (const Monomial& m : matrix.entries[k].monomials)
         for (const Factor& x : m.factors)
-          if (point.coordinates[static_cast<std::size_t>(x.variable)].empty()) return std::nullopt;
+          if (point.coordinates[x.variable].empty()) return std::nullopt;
       values[k / static_cast<std::size_t>(matrix.columns)].push_back(value_of(matrix.entries[k], point, t));
     }
     return rank(std::move(values), t, ended);

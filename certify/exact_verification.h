@@ -1,9 +1,9 @@
 // Does an exactly known point solve a system, and how large is the kernel there? Decided in exact rational arithmetic.
 //
 // Kernel matrix. The equations of a system that are linear and homogeneous in its variables of kind `kernel` read M(q) ξ =
-// 0; of a system with several kernel vectors those in ξ¹ alone do. The
-// dimension of M's kernel at a point is its number of columns less its rank, and the rank r is proven by exact elimination:
-// r pivots that are not 0, and nothing but zeros in the rows that remain.
+// 0; of a system with several kernel vectors those in ξ¹ alone do. The dimension of M's kernel at a point is its number of
+// columns less its rank, and the rank r is proven by exact elimination: r pivots that are not 0, and nothing but zeros in
+// the rows that remain.
 #pragma once
 
 #include <optional>

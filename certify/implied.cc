@@ -42,9 +42,8 @@ class Implication {
   explicit Implication(const System& system) : system_(system) {
     for (const Variable& v : system.variables) sides_.push_back({v.lower_implied, v.upper_implied});
     for (const Polynomial& f : system.equations) {
-      const bool rational = std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
-        return m.coefficient.is_rational() && !carries_tolerance(m);
-      });
+      const bool rational = std::ranges::all_of(
+          f.monomials, [](const Monomial& m) { return m.coefficient.is_rational() && !carries_tolerance(m); });
       if (!rational) continue;
       if (auto sum = sum_of_squares(f)) {
         for (const auto& [j, a] : sum->coefficients) squares_of_[j].push_back(squares_.size());
@@ -64,7 +63,7 @@ class Implication {
     linear_of_.resize(system_.variables.size());
     for (std::size_t row = 0; row < linear.size(); ++row) {
       for (const Monomial& m : linear[row]->monomials)
-        if (is_plain_variable(m)) linear_of_[static_cast<std::size_t>(m.factors[0].variable)].push_back(row);
+        if (is_plain_variable(m)) linear_of_[m.factors[0].variable].push_back(row);
       open_.push_back(row);
     }
     for (const SumOfSquares& sum : squares_)
@@ -83,8 +82,8 @@ class Implication {
 
  private:
   static bool is_linear(const Polynomial& f) {
-    return std::all_of(f.monomials.begin(), f.monomials.end(),
-                       [](const Monomial& m) { return m.factors.empty() || m.is_trigonometric() || is_plain_variable(m); });
+    return std::ranges::all_of(
+        f.monomials, [](const Monomial& m) { return m.factors.empty() || m.is_trigonometric() || is_plain_variable(m); });
   }
 
   // Of two linear equations each, without a variable of both.
@@ -102,8 +101,8 @@ class Implication {
 
   static void add_shorter_sums(const Polynomial& f, const Polynomial& g, std::vector<Polynomial>& sums) {
     for (const Monomial& m : f.monomials) {
-      const auto same = std::find_if(g.monomials.begin(), g.monomials.end(),
-                                     [&](const Monomial& n) { return n.factors == m.factors && is_plain_variable(n); });
+      const auto same = std::ranges::find_if(
+          g.monomials, [&](const Monomial& n) { return n.factors == m.factors && is_plain_variable(n); });
       if (same == g.monomials.end()) continue;
       Polynomial sum = certify::sum(f, -m.coefficient / same->coefficient, g);
       if (sum.monomials.size() < std::max(f.monomials.size(), g.monomials.size())) sums.push_back(std::move(sum));
@@ -113,17 +112,17 @@ class Implication {
   // Takes |x_j| ≤ h as implied for each end h ≥ 0 of its domain for which that is true.
   template <class Holds>
   void bound(int j, Holds holds) {
-    const Variable& v = system_.variables[static_cast<std::size_t>(j)];
+    const Variable& v = system_.variables[j];
     const auto reaches = [&](const ExactNumber& h) { return h.is_rational() && h.sign() != -1 && holds(h); };
     if (reaches(-v.lower)) imply(j, false);
     if (reaches(v.upper)) imply(j, true);
   }
 
   void imply(int j, bool upper) {
-    bool& side = upper ? sides_[static_cast<std::size_t>(j)].upper : sides_[static_cast<std::size_t>(j)].lower;
+    bool& side = upper ? sides_[j].upper : sides_[j].lower;
     if (side) return;
     side = true;
-    const auto& rows = linear_of_[static_cast<std::size_t>(j)];
+    const auto& rows = linear_of_[j];
     open_.insert(open_.end(), rows.begin(), rows.end());
   }
 
@@ -132,7 +131,7 @@ class Implication {
   // Is there an implied upper (else lower) bound of m's value?
   bool has_end(const Monomial& m, bool upper) const {
     if (m.factors.empty() || m.is_trigonometric()) return true;
-    const auto j = static_cast<std::size_t>(m.factors[0].variable);
+    const std::size_t j = m.factors[0].variable;
     const bool of_upper = by_upper_side(m, upper);
     return (of_upper ? sides_[j].upper : sides_[j].lower) &&
            (of_upper ? system_.variables[j].upper : system_.variables[j].lower).is_rational();
@@ -141,13 +140,13 @@ class Implication {
   ExactNumber end(const Monomial& m, bool upper) const {
     if (m.factors.empty()) return m.coefficient;
     if (m.is_trigonometric()) return upper ? magnitude(m.coefficient) : -magnitude(m.coefficient);
-    const Variable& v = system_.variables[static_cast<std::size_t>(m.factors[0].variable)];
+    const Variable& v = system_.variables[m.factors[0].variable];
     return m.coefficient * (by_upper_side(m, upper) ? v.upper : v.lower);
   }
   // Is m a variable whose side close() is about not known to be implied?
   bool may_close(const Monomial& m, bool upper) const {
     if (!is_plain_variable(m)) return false;
-    const ImpliedSides& sides = sides_[static_cast<std::size_t>(m.factors[0].variable)];
+    const ImpliedSides& sides = sides_[m.factors[0].variable];
     return !(upper == (m.coefficient.sign() == -1) ? sides.upper : sides.lower);
   }
 
@@ -158,9 +157,9 @@ class Implication {
       int missing = 0;
       for (const Monomial& m : f.monomials)
         if (!has_end(m, upper)) open = &m, ++missing;
-      const bool says_something = missing == 0 ? std::any_of(f.monomials.begin(), f.monomials.end(),
-                                                             [&](const Monomial& m) { return may_close(m, upper); })
-                                               : missing == 1 && may_close(*open, upper);
+      const bool says_something =
+          missing == 0 ? std::ranges::any_of(f.monomials, [&](const Monomial& m) { return may_close(m, upper); })
+                       : missing == 1 && may_close(*open, upper);
       if (!says_something) continue;  // exact sums are long work
       ExactNumber sum;
       for (const Monomial& m : f.monomials)
@@ -174,7 +173,7 @@ class Implication {
   // m + rest = 0 and rest ≤ sum (upper) or rest ≥ sum: −m does, too.
   void close(const Monomial& m, const ExactNumber& sum, bool upper) {
     const int j = m.factors[0].variable;
-    const Variable& v = system_.variables[static_cast<std::size_t>(j)];
+    const Variable& v = system_.variables[j];
     const bool side = upper == (m.coefficient.sign() == -1);  // x_j = −rest/coefficient
     const ExactNumber& end_of_j = side ? v.upper : v.lower;
     if (!end_of_j.is_rational()) return;

@@ -2,8 +2,9 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
 
+#include "corank/certify/numeric.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
@@ -11,24 +12,10 @@
 namespace corank::certify {
 namespace {
 
-Eigen::MatrixXd middle(const IntervalMatrix& m) {
-  Eigen::MatrixXd result(m.rows, m.columns);
-  for (int i = 0; i < m.rows; ++i)
-    for (int j = 0; j < m.columns; ++j) result(i, j) = m(i, j).mid();
-  return result;
-}
-
-// Pᵀ·M·P for symmetric matrices in M: the entries (i, j) and (j, i) are the same number.
-template <class Matrix>
-IntervalMatrix congruent(const IntervalMatrix& m, const Matrix& p, int columns) {
-  IntervalMatrix mp(m.rows, columns), result(columns, columns);
-  for (int i = 0; i < m.rows; ++i)
-    for (int j = 0; j < columns; ++j)
-      for (int k = 0; k < m.columns; ++k) mp(i, j) += m(i, k) * Interval(p(k, j));
-  for (int i = 0; i < columns; ++i)
-    for (int j = 0; j < columns; ++j)
-      for (int k = 0; k < m.rows; ++k) result(i, j) += Interval(p(k, i)) * mp(k, j);
-  for (int i = 0; i < columns; ++i)
+// The same for symmetric matrices in M: the entries (i, j) and (j, i) are the same number.
+IntervalMatrix congruent_symmetric(const IntervalMatrix& m, const IntervalMatrix& p) {
+  IntervalMatrix result = congruent(m, p);
+  for (int i = 0; i < p.columns; ++i)
     for (int j = 0; j < i; ++j) {
       CORANK_CHECK(result(i, j).intersect(result(j, i)));
       result(j, i) = result(i, j);
@@ -38,37 +25,38 @@ IntervalMatrix congruent(const IntervalMatrix& m, const Matrix& p, int columns) 
 
 }  // namespace
 
+IntervalMatrix congruent(const IntervalMatrix& m, const IntervalMatrix& p) {
+  IntervalMatrix mp(m.rows, p.columns), result(p.columns, p.columns);
+  for (int i = 0; i < m.rows; ++i)
+    for (int j = 0; j < p.columns; ++j)
+      for (int k = 0; k < m.columns; ++k) mp(i, j) += m(i, k) * p(k, j);
+  for (int i = 0; i < p.columns; ++i)
+    for (int j = 0; j < p.columns; ++j)
+      for (int k = 0; k < m.rows; ++k) result(i, j) += p(k, i) * mp(k, j);
+  return result;
+}
+
 std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::vector<int>& dependent,
                                            const std::vector<double>& sizes) {
   CORANK_CHECK(static_cast<int>(dependent.size()) == a.rows && UpwardRounding::active());
   const int m = a.rows, n = a.columns;
   const Eigen::MatrixXd middle_a = middle(a);
   if (!middle_a.allFinite() || m > n) return std::nullopt;
-  std::vector<int> free;
-  for (int k = 0; k < n; ++k)
-    if (std::find(dependent.begin(), dependent.end(), k) == dependent.end()) free.push_back(k);
-  Eigen::MatrixXd a_d(m, m);
-  for (int k = 0; k < m; ++k) a_d.col(k) = middle_a.col(dependent[static_cast<std::size_t>(k)]);
-  const Eigen::MatrixXd y = inverse(a_d);  // any real matrix will do
-  if (!y.allFinite()) return std::nullopt;
-  const auto y_times = [&](int row, int column) {
-    Interval sum;
-    for (int k = 0; k < m; ++k) sum += Interval(y(row, k)) * a(k, column);
-    return sum;
-  };
-  std::vector<double> magnitudes, weights;  // the former of I − Y·A_D, upward
-  for (int i = 0; i < m; ++i) {
-    for (int j = 0; j < m; ++j) {
-      magnitudes.push_back((Interval(i == j ? 1.0 : 0.0) - y_times(i, dependent[static_cast<std::size_t>(j)])).mag());
-    }
-    weights.push_back(sizes.empty() ? 1.0 : sizes[static_cast<std::size_t>(dependent[static_cast<std::size_t>(i)])]);
+  const std::vector<int> free = all_but(dependent, n);
+  IntervalMatrix a_d(m, m);
+  std::vector<double> weights;
+  for (int k = 0; k < m; ++k) {
+    for (int i = 0; i < m; ++i) a_d(i, k) = a(i, dependent[k]);
+    weights.push_back(sizes.empty() ? 1.0 : sizes[dependent[k]]);
   }
+  const Eigen::MatrixXd y = m > 0 ? inverse(middle(a_d)) : middle_a;  // any real matrix will do
+  if (!y.allFinite()) return std::nullopt;
+  const std::vector<double> magnitudes = distance_from_identity(y, a_d);
   double alpha = 0;
   for (int i = 0; i < m; ++i) {
     double sum = 0;
-    for (int j = 0; j < m; ++j)
-      sum += magnitudes[static_cast<std::size_t>(i * m + j)] * weights[static_cast<std::size_t>(j)];
-    alpha = std::max(alpha, sum / weights[static_cast<std::size_t>(i)]);
+    for (int j = 0; j < m; ++j) sum += magnitudes[i * m + j] * weights[j];
+    alpha = std::max(alpha, sum / weights[i]);
   }
   const double gap = -(alpha - 1);  // downward: α − 1 is rounded up
   if (!(alpha < 1) || !(gap > 0)) return std::nullopt;
@@ -77,17 +65,17 @@ std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::v
     std::vector<Interval> r;
     double largest = 0;
     for (int i = 0; i < m; ++i) {
-      r.push_back(y_times(i, free[static_cast<std::size_t>(f)]));
-      largest = std::max(largest, r.back().mag() / weights[static_cast<std::size_t>(i)]);
+      r.emplace_back();
+      for (int k = 0; k < m; ++k) r.back() += Interval(y(i, k)) * a(k, free[f]);
+      largest = std::max(largest, r.back().mag() / weights[i]);
     }
     const double bound = largest / gap;  // upward: of ‖X‖
     for (int i = 0; i < m; ++i) {
       double slack = 0;  // upward: of the i-th entry of (I − Y·A_D)X
-      for (int j = 0; j < m; ++j)
-        slack += magnitudes[static_cast<std::size_t>(i * m + j)] * bound * weights[static_cast<std::size_t>(j)];
-      basis(dependent[static_cast<std::size_t>(i)], f) = -(r[static_cast<std::size_t>(i)] + Interval(-slack, slack));
+      for (int j = 0; j < m; ++j) slack += magnitudes[i * m + j] * bound * weights[j];
+      basis(dependent[i], f) = -(r[i] + Interval(-slack, slack));
     }
-    basis(free[static_cast<std::size_t>(f)], f) = Interval(1.0);
+    basis(free[f], f) = Interval(1.0);
   }
   return basis;
 }
@@ -99,7 +87,7 @@ std::optional<Inertia> inertia(const IntervalMatrix& h) {
   if (!middle_h.allFinite()) return std::nullopt;
   const SymmetricEigen eigen = symmetric_eigen(0.5 * (middle_h + middle_h.transpose()));
   if (!eigen.vectors.allFinite()) return std::nullopt;
-  const IntervalMatrix t = congruent(h, eigen.vectors, h.rows);
+  const IntervalMatrix t = congruent_symmetric(h, exactly(eigen.vectors));
   Inertia result;
   for (int i = 0; i < t.rows; ++i) {
     double others = 0;
@@ -121,7 +109,7 @@ std::optional<Inertia> inertia_on_kernel(const IntervalMatrix& h, const Interval
   for (int k = 0; k < a.rows; ++k) dependent.push_back(qr.colsPermutation().indices()(k));
   const std::optional<IntervalMatrix> basis = kernel_basis(a, dependent);
   if (!basis) return std::nullopt;
-  return inertia(congruent(h, *basis, basis->columns));
+  return inertia(congruent_symmetric(h, *basis));
 }
 
 }  // namespace corank::certify

@@ -19,10 +19,13 @@ struct IntervalMatrix {
   int rows = 0, columns = 0;
   std::vector<Interval> entries;
 
-  IntervalMatrix(int r, int c) : rows(r), columns(c), entries(static_cast<std::size_t>(r) * static_cast<std::size_t>(c)) {}
-  Interval& operator()(int i, int j) { return entries[static_cast<std::size_t>(i * columns + j)]; }
-  const Interval& operator()(int i, int j) const { return entries[static_cast<std::size_t>(i * columns + j)]; }
+  IntervalMatrix(int r, int c) : rows(r), columns(c), entries(r * c) {}
+  Interval& operator()(int i, int j) { return entries[i * columns + j]; }
+  const Interval& operator()(int i, int j) const { return entries[i * columns + j]; }
 };
+
+/// Encloses PᵀMP. Requires UpwardRounding::active().
+IntervalMatrix congruent(const IntervalMatrix& m, const IntervalMatrix& p);
 
 /// The inertia that every symmetric matrix in H has, none of whose eigenvalues is 0 then; nothing where it is not shown.
 /// Requires UpwardRounding::active(). Theorem (Sylvester, Gershgorin): let Q be any real matrix and T = QᵀHQ have |T_ii| >

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/certify/contraction.h"
+#include "corank/certify/numeric.h"
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
@@ -29,7 +30,7 @@ struct Balanced {
 Balanced balanced(Eigen::MatrixXd a) {
   constexpr int kLeastTurns = 3, kMostTurns = 8;
   constexpr double kNear = 2;
-  std::vector<double> sizes(static_cast<std::size_t>(a.cols()), 1.0);
+  std::vector<double> sizes(a.cols(), 1.0);
   bool uneven = true;
   for (int turn = 0; turn < kLeastTurns || (uneven && turn < kMostTurns); ++turn) {
     uneven = false;
@@ -43,12 +44,26 @@ Balanced balanced(Eigen::MatrixXd a) {
     for (Eigen::Index j = 0; j < a.cols(); ++j) {
       const double by = factor(a.col(j));
       a.col(j) /= by;
-      sizes[static_cast<std::size_t>(j)] /= by;
+      sizes[j] /= by;
     }
   }
   for (double& size : sizes)
     if (!(size > 0) || !std::isfinite(size)) size = 1;
   return {std::move(a), std::move(sizes)};
+}
+
+// The theorem, for the submatrix N of these rows and columns of M(B).
+bool is_regular(const IntervalMatrix& m, const std::vector<int>& rows, const std::vector<int>& columns,
+                const std::vector<double>& sizes) {
+  const int s = static_cast<int>(rows.size());
+  IntervalMatrix n(s, s);
+  std::vector<double> typical;
+  for (int j = 0; j < s; ++j) {
+    for (int i = 0; i < s; ++i) n(i, j) = m(rows[i], columns[j]);
+    typical.push_back(sizes[columns[j]]);
+  }
+  const Eigen::MatrixXd y = inverse(middle(n));  // any real matrix will do
+  return y.allFinite() && is_contraction(distance_from_identity(y, n), std::move(typical));
 }
 
 }  // namespace
@@ -57,7 +72,7 @@ KernelBound::KernelBound(const System& system) : least_(1), compiled_(system, en
   const KernelMatrix matrix = kernel_matrix(system);
   rows_ = static_cast<int>(matrix.rows.size());
   columns_ = static_cast<int>(matrix.unknowns.size());
-  note_arguments(entries(matrix));
+  arguments_ = variables_of(entries(matrix));
 }
 
 KernelBound::KernelBound(const System& system, const PolynomialMatrix& matrix)
@@ -65,60 +80,18 @@ KernelBound::KernelBound(const System& system, const PolynomialMatrix& matrix)
       columns_(matrix.columns),
       least_(std::max(0, matrix.columns - matrix.rows)),
       most_tries_(kMostTries),
-      compiled_(system, matrix.entries) {
-  note_arguments(matrix.entries);
-}
-
-void KernelBound::note_arguments(const std::vector<Polynomial>& entries) {
-  for (const Polynomial& f : entries)
-    for (const Monomial& m : f.monomials)
-      for (const Factor& x : m.factors) arguments_.push_back(x.variable);
-  std::sort(arguments_.begin(), arguments_.end());
-  arguments_.erase(std::unique(arguments_.begin(), arguments_.end()), arguments_.end());
-}
-
-bool KernelBound::is_regular(const std::vector<Interval>& m, const std::vector<int>& rows, const std::vector<int>& columns,
-                             const std::vector<double>& sizes) const {
-  const int s = static_cast<int>(rows.size()), k = columns_;
-  const auto entry = [&](int i, int j) -> const Interval& { return m[static_cast<std::size_t>(rows[i] * k + columns[j])]; };
-  Eigen::MatrixXd middle(s, s);
-  for (int i = 0; i < s; ++i)
-    for (int j = 0; j < s; ++j) middle(i, j) = entry(i, j).mid();
-  const Eigen::MatrixXd y = inverse(middle);  // any real matrix will do
-  if (!y.allFinite()) return false;
-  std::vector<std::vector<int>> filled(
-      static_cast<std::size_t>(s));  // of each column the rows that are not 0: large M are sparse
-  for (int j = 0; j < s; ++j)
-    for (int b = 0; b < s; ++b)
-      if (entry(b, j).mag() > 0) filled[static_cast<std::size_t>(j)].push_back(b);
-  std::vector<double> excess;  // |I − Y·N|, upward
-  for (int i = 0; i < s; ++i)
-    for (int j = 0; j < s; ++j) {
-      Interval e(i == j ? 1.0 : 0.0);
-      for (const int b : filled[static_cast<std::size_t>(j)]) e -= Interval(y(i, b)) * entry(b, j);
-      excess.push_back(e.mag());
-    }
-  std::vector<double> typical;
-  for (const int column : columns) typical.push_back(sizes[static_cast<std::size_t>(column)]);
-  return contraction(excess, std::move(typical)).has_value();
-}
+      arguments_(variables_of(matrix.entries)),
+      compiled_(system, matrix.entries) {}
 
 int KernelBound::at_most(const Box& box, int halvings) const {
   CORANK_CHECK(applies() && UpwardRounding::active());
   const int whole = at_most_in_one(box);
-  if (whole <= least_ || halvings == 0 || arguments_.empty()) return whole;
-  const auto relative_width = [&](std::size_t j) { return box[j].width() / compiled_.scales()[j]; };
-  auto widest = static_cast<std::size_t>(arguments_.front());
-  for (const int v : arguments_)
-    if (const auto j = static_cast<std::size_t>(v); relative_width(j) > relative_width(widest)) widest = j;
-  const Interval side = box[widest];
-  const double middle = side.mid();
-  if (!(side.lo() < middle && middle < side.hi())) return whole;
+  if (whole <= least_ || halvings == 0) return whole;
+  const auto halves = halved(box, arguments_, compiled_.scales());
+  if (!halves) return whole;
   int most = 0;
-  for (const Interval& half : {Interval(side.lo(), middle), Interval(middle, side.hi())}) {
-    Box part = box;
-    part[widest] = half;
-    most = std::max(most, at_most(part, halvings - 1));
+  for (const Box& half : *halves) {
+    most = std::max(most, at_most(half, halvings - 1));
     if (most >= whole) return whole;
   }
   return most;
@@ -127,15 +100,11 @@ int KernelBound::at_most(const Box& box, int halvings) const {
 int KernelBound::at_most_in_one(const Box& box) const {
   const int rows = rows_, k = columns_;
   if (k == 0) return 0;
-  std::vector<Interval> m;
-  Eigen::MatrixXd middle(rows, k);
+  IntervalMatrix m(rows, k);
   for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < k; ++j) {
-      m.push_back(compiled_.evaluate(compiled_.value_row(i * k + j), box));
-      middle(i, j) = m.back().mid();
-    }
+    for (int j = 0; j < k; ++j) m(i, j) = compiled_.evaluate(compiled_.value_row(i * k + j), box);
   // Complete pivoting: the first s pivots belong to a well-conditioned submatrix, for every s.
-  const Balanced scaled = balanced(middle);
+  const Balanced scaled = balanced(middle(m));
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(scaled.matrix);
   std::vector<int> row_order, column_order;
   for (int i = 0; i < std::min(rows, k); ++i) {

@@ -34,9 +34,6 @@ class KernelBound {
 
  private:
   int at_most_in_one(const Box& box) const;
-  bool is_regular(const std::vector<Interval>& m, const std::vector<int>& rows, const std::vector<int>& columns,
-                  const std::vector<double>& sizes) const;
-  void note_arguments(const std::vector<Polynomial>& entries);
 
   int rows_ = 0, columns_ = 0, least_ = 0, most_tries_ = std::numeric_limits<int>::max();
   std::vector<int> arguments_;  // variables in M

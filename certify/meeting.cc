@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/certify/numeric.h"
 #include "corank/certify/projection.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
@@ -14,16 +15,6 @@ namespace corank::certify {
 namespace {
 
 constexpr double kRadius = 1e-10;  // of the scales
-
-Eigen::MatrixXd jacobian(const CompiledSystem& system, const std::vector<double>& c) {
-  std::vector<double> entries(static_cast<std::size_t>(system.entries()));
-  system.approximate_jacobian(c.data(), entries.data());
-  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(system.equations(), system.variables());
-  for (int i = 0; i < system.equations(); ++i)
-    for (int k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
-      j(i, system.column(k)) += entries[static_cast<std::size_t>(k)];
-  return j;
-}
 
 // The columns times the weights, then each row and its side divided by the row's largest entry: in no unit.
 Eigen::MatrixXd weighted(Eigen::MatrixXd j, const Eigen::VectorXd& weights, Eigen::VectorXd* side = nullptr) {
@@ -55,53 +46,41 @@ bool MeetingTest::project(const Box& within, std::vector<double>& c) {
   constexpr double kSmall = 1e-13;
   const int m = system_.equations(), n = system_.variables();
   Eigen::VectorXd weights(n), f(m);
-  for (int j = 0; j < n; ++j) weights(j) = within[static_cast<std::size_t>(j)].width();
+  for (int j = 0; j < n; ++j) weights(j) = within[j].width();
   for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < m; ++i) f(i) = system_.evaluate_at(i, c.data()).mid();
     // The least change, in widths of the sides.
-    const Eigen::MatrixXd slopes = weighted(jacobian(system_, c), weights, &f);
+    const Eigen::MatrixXd slopes = weighted(approximate_jacobian(system_, c), weights, &f);
     const Eigen::VectorXd change = weights.asDiagonal() * least_squares(slopes, -f).x;
     if (!change.allFinite()) return false;
     double largest = 0;
     for (int j = 0; j < n; ++j) {
-      c[static_cast<std::size_t>(j)] += change(j);
-      largest = std::max(largest, std::fabs(change(j)) / system_.scales()[static_cast<std::size_t>(j)]);
+      c[j] += change(j);
+      largest = std::max(largest, std::fabs(change(j)) / system_.scales()[j]);
     }
     if (largest < kSmall) break;
   }
-  for (std::size_t j = 0; j < within.size(); ++j)
-    if (!within[j].contains(c[j])) return false;
-  return true;
+  return contains(within, Box(c.begin(), c.end()));
 }
 
 Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, const std::vector<double>& weights) {
   const int m = system_.equations();
-  const Eigen::MatrixXd j = jacobian(system_, c);
-  const Eigen::Map<const Eigen::VectorXd> w(weights.data(), static_cast<Eigen::Index>(weights.size()));
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(weighted(j, w));
+  const Eigen::Map<const Eigen::VectorXd> w(weights.data(), weights.size());
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(weighted(approximate_jacobian(system_, c), w));
   if (qr.rank() < m) return {};
-  Preconditioner p;
-  Eigen::MatrixXd j_d(m, m);
+  std::vector<int> dependent;
   for (int a = 0; a < m; ++a) {
-    p.equations.push_back(a);
-    p.dependent.push_back(qr.colsPermutation().indices()(a));
-    j_d.col(a) = j.col(p.dependent.back());
-  }
-  const Eigen::MatrixXd y = inverse(j_d);
-  if (!y.allFinite()) return {};
-  for (int a = 0; a < m; ++a)
-    for (int b = 0; b < m; ++b) p.y.push_back(y(a, b));
-  for (const int d : p.dependent) {
-    const auto k = static_cast<std::size_t>(d);
+    const int k = qr.colsPermutation().indices()(a);
     const double r = std::max(kRadius * system_.scales()[k], 0.5 * x[k].width());
     x[k] = Interval(c[k] - r, c[k] + r);
+    dependent.push_back(k);
   }
-  return newton_prove(system_, p, x, workspace_);
+  return newton_prove(system_, midpoint_preconditioner(system_, c, dependent), x, workspace_);
 }
 
 std::optional<Sheet> MeetingTest::sheet_in(const Box& box, const Box& near) {
   CORANK_CHECK(UpwardRounding::active());
-  const bool has_one_value = std::any_of(box.begin(), box.end(), [](const Interval& side) { return side.width() == 0; });
+  const bool has_one_value = std::ranges::any_of(box, [](const Interval& side) { return side.width() == 0; });
   // From the middle, then from points on the way to the ends of its sides.
   for (const double share : {0.5, 0.2, 0.8, 0.05, 0.95}) {
     std::vector<double> c;

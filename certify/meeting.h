@@ -25,9 +25,7 @@ class MeetingTest {
   std::optional<Box> solution_in(const Box& box, const Box& near);
   /// The same as the sheet that was proven, whose image that box is: a point in the variables that are not dependent.
   std::optional<Sheet> sheet_in(const Box& box, const Box& near);
-  /// True: a solution in both regions is proven, about `near`. False says nothing. Likewise.
-  bool meet(const Box& a, const Box& b, const Box& near) { return common(a, b, near).has_value(); }
-  /// That solution, as sheet_in() gives it.
+  /// Likewise a solution in both regions.
   std::optional<Sheet> common(const Box& a, const Box& b, const Box& near);
 
   /// A piece of its own about a solution near the box's middle, about so large in units of the system's scales: in its

@@ -2,14 +2,12 @@
 // has as many bits as the thread that makes it is to compute with: no thread changes another's. Inside certify/ only.
 #pragma once
 
-#include <mpfi.h>
-#include <mpfr.h>
-
 #include <concepts>
 #include <utility>
 
 #include <Eigen/Core>
 
+#include "corank/core/mpfi.h"
 #include "corank/core/nearest_rounding.h"
 
 namespace corank::certify {
@@ -88,41 +86,28 @@ class Real {
 };
 
 /// Rounds outward.
-class Range {
+class Range : public Mpfi {
  public:
   Range() : Range(0) {}
-  Range(std::integral auto i) { mpfi_init2(x_, Precision::bits()), mpfi_set_si(x_, static_cast<long>(i)); }
-  explicit Range(const Real& x) { mpfi_init2(x_, Precision::bits()), mpfi_set_fr(x_, x.data()); }
-  Range(const Range& o) { mpfi_init2(x_, Precision::bits()), mpfi_set(x_, o.x_); }
-  Range(Range&& o) : Range() { mpfi_swap(x_, o.x_); }
-  ~Range() { mpfi_clear(x_); }
-  Range& operator=(const Range& o) { return mpfi_set(x_, o.x_), *this; }
-  Range& operator=(Range&& o) noexcept { return mpfi_swap(x_, o.x_), *this; }
+  Range(std::integral auto i) : Mpfi(Precision::bits()) { mpfi_set_si(*this, static_cast<long>(i)); }
+  explicit Range(const Real& x) : Mpfi(Precision::bits()) { mpfi_set_fr(*this, x.data()); }
 
-  mpfi_ptr data() { return x_; }
-  mpfi_srcptr data() const { return x_; }
-  mpfr_srcptr lower() const { return &x_->left; }
-  mpfr_srcptr upper() const { return &x_->right; }
-
-  Range& operator+=(const Range& o) { return mpfi_add(x_, x_, o.x_), *this; }
-  Range& operator-=(const Range& o) { return mpfi_sub(x_, x_, o.x_), *this; }
-  Range& operator*=(const Range& o) { return mpfi_mul(x_, x_, o.x_), *this; }
-  friend Range operator+(const Range& a, const Range& b) { return made(mpfi_add, a.x_, b.x_); }
-  friend Range operator-(const Range& a, const Range& b) { return made(mpfi_sub, a.x_, b.x_); }
-  friend Range operator*(const Range& a, const Range& b) { return made(mpfi_mul, a.x_, b.x_); }
-  friend Range operator-(const Range& a) { return made(mpfi_neg, a.x_); }
-  friend Range sin(const Range& a) { return made(mpfi_sin, a.x_); }
-  friend Range cos(const Range& a) { return made(mpfi_cos, a.x_); }
+  Range& operator+=(const Range& o) { return mpfi_add(*this, *this, o), *this; }
+  Range& operator-=(const Range& o) { return mpfi_sub(*this, *this, o), *this; }
+  Range& operator*=(const Range& o) { return mpfi_mul(*this, *this, o), *this; }
+  friend Range operator+(Range a, const Range& b) { return std::move(a += b); }
+  friend Range operator-(Range a, const Range& b) { return std::move(a -= b); }
+  friend Range operator*(Range a, const Range& b) { return std::move(a *= b); }
+  friend Range operator-(const Range& a) { return made(mpfi_neg, a); }
+  friend Range sin(const Range& a) { return made(mpfi_sin, a); }
+  friend Range cos(const Range& a) { return made(mpfi_cos, a); }
 
  private:
-  template <class F, class... Operands>
-  static Range made(F f, Operands... operands) {
+  static Range made(int (*f)(mpfi_ptr, mpfi_srcptr), const Range& x) {
     Range result;
-    f(result.x_, operands...);
+    f(result, x);
     return result;
   }
-
-  mpfi_t x_;
 };
 
 }  // namespace corank::certify

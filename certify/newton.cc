@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "corank/certify/newton_buffers.h"
+#include "corank/certify/numeric.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
+#include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
@@ -18,19 +22,19 @@ void set_center(std::span<const Interval> x, int n, NewtonBuffers& w) {
 // residual (r) := Y · F(c), after panel.set_matrix(Y).
 void multiply_residual(const CompiledSystem& system, const Preconditioner& p, NewtonBuffers& w) {
   const int r = p.rank();
-  w.values.resize(static_cast<std::size_t>(r));
+  w.values.resize(r);
   for (int b = 0; b < r; ++b) w.values[b] = system.evaluate_at(p.equations[b], w.center.data());
   w.panel.multiply(w.values, w.residual);
 }
 
 bool bounded(const std::vector<Interval>& x) {
-  return std::all_of(x.begin(), x.end(), [](const Interval& side) { return side.is_bounded(); });
+  return std::ranges::all_of(x, [](const Interval& side) { return side.is_bounded(); });
 }
 
 // The rows Y·F(c) + Y·S·(x − c) ∋ 0 of the panel, each solved for its dependent variable.
 NewtonOutcome solve_rows(const Preconditioner& p, std::span<Interval> x, NewtonBuffers& w) {
   const int r = p.rank(), n = w.panel.columns();
-  w.offset.resize(static_cast<std::size_t>(n));
+  w.offset.resize(n);
   for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
   w.image = w.residual;
   w.panel.accumulate(w.offset.data(), p.dependent, Panel::Diagonal::zero, w.image);
@@ -45,12 +49,8 @@ NewtonOutcome solve_rows(const Preconditioner& p, std::span<Interval> x, NewtonB
     }
     // pivot · (x_d − c_d) = −image
     const auto shift = divide(-w.image[a], pivot, w.offset[d]);
-    if (!shift) {
-      outcome.empty = true;
-      return outcome;
-    }
     if (pivot.contains_zero()) outcome.regular = false;
-    if (!x[d].intersect(Interval(w.center[d]) + *shift)) {
+    if (!shift || !x[d].intersect(Interval(w.center[d]) + *shift)) {
       outcome.empty = true;
       return outcome;
     }
@@ -60,28 +60,43 @@ NewtonOutcome solve_rows(const Preconditioner& p, std::span<Interval> x, NewtonB
 
 }  // namespace
 
+Preconditioner midpoint_preconditioner(const CompiledSystem& system, const std::vector<double>& point,
+                                       const std::vector<int>& dependent) {
+  const int m = system.equations();
+  CORANK_CHECK(static_cast<int>(dependent.size()) == m);
+  Eigen::MatrixXd y = inverse(approximate_jacobian(system, point)(Eigen::all, dependent));
+  if (!y.allFinite()) y.setZero();
+  Preconditioner p;
+  p.dependent = dependent;
+  for (int a = 0; a < m; ++a) {
+    p.equations.push_back(a);
+    for (int b = 0; b < m; ++b) p.y.push_back(y(a, b));
+  }
+  return p;
+}
+
 NewtonWorkspace::NewtonWorkspace() = default;
 NewtonWorkspace::~NewtonWorkspace() = default;
 NewtonWorkspace::NewtonWorkspace(NewtonWorkspace&&) noexcept = default;
 NewtonWorkspace& NewtonWorkspace::operator=(NewtonWorkspace&&) noexcept = default;
 
-std::unique_ptr<NewtonBuffers> NewtonWorkspace::take() {
-  if (spare_.empty()) return std::make_unique<NewtonBuffers>();
-  std::unique_ptr<NewtonBuffers> last = std::move(spare_.back());
+NewtonWorkspace::Borrowed NewtonWorkspace::take() {
+  if (spare_.empty()) return Borrowed(new NewtonBuffers, {this});
+  Borrowed last(spare_.back().release(), {this});
   spare_.pop_back();
   return last;
 }
 
-void NewtonWorkspace::give_back(std::unique_ptr<NewtonBuffers> buffers) { spare_.push_back(std::move(buffers)); }
+void NewtonWorkspace::GiveBack::operator()(NewtonBuffers* buffers) const { home->spare_.emplace_back(buffers); }
 
 NewtonStep::NewtonStep(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w)
-    : system_(&system), home_(&w), buffers_(w.take()) {
+    : system_(&system), buffers_(w.take()) {
   NewtonBuffers& b = *buffers_;
   b.p.equations = p.equations;
   b.p.dependent = p.dependent;
   if (!b.panel.set_matrix(p.y, p.rank())) return;
   set_center(x, system.variables(), b);
-  b.slope.resize(static_cast<std::size_t>(system.entries()));
+  b.slope.resize(system.entries());
   system.slopes(x, b.center.data(), b.slope);
   if (!b.panel.assign_product(system, p.equations, b.slope)) return;
   multiply_residual(system, p, b);
@@ -91,26 +106,11 @@ NewtonStep::NewtonStep(const CompiledSystem& system, const Preconditioner& p, st
   if (outcome_.regular && !outcome_.empty) outcome_.spread = b.panel.distance_from_identity(p.dependent, system.scales());
 }
 
-NewtonStep::~NewtonStep() {
-  if (buffers_) home_->give_back(std::move(buffers_));
-}
-
-NewtonStep::NewtonStep(NewtonStep&& other) noexcept = default;
-
-NewtonStep& NewtonStep::operator=(NewtonStep&& other) noexcept {
-  std::swap(system_, other.system_);
-  std::swap(home_, other.home_);
-  std::swap(buffers_, other.buffers_);
-  std::swap(outcome_, other.outcome_);
-  std::swap(bounded_, other.bounded_);
-  return *this;
-}
-
 const std::vector<int>& NewtonStep::equations() const { return buffers_->p.equations; }
 const std::vector<int>& NewtonStep::dependent() const { return buffers_->p.dependent; }
 std::span<const double> NewtonStep::center() const { return buffers_->center; }
 double NewtonStep::derivative(int a, int j) const { return bounded_ ? -buffers_->panel.at(a, j).mid() : 0; }
-double NewtonStep::noise(int a) const { return bounded_ ? buffers_->residual[static_cast<std::size_t>(a)].width() : 0; }
+double NewtonStep::noise(int a) const { return bounded_ ? buffers_->residual[a].width() : 0; }
 
 void NewtonStep::add_smears(std::span<const Interval> x, std::vector<double>& sums) const {
   if (!bounded_) return;
@@ -120,9 +120,8 @@ void NewtonStep::add_smears(std::span<const Interval> x, std::vector<double>& su
     double sum = 0;
     for (int j = 0; j < panel.columns(); ++j) {
       const Interval entry = panel.at(a, j);
-      const double size =
-          j == buffers_->p.dependent[static_cast<std::size_t>(a)] ? (entry - Interval(1.0)).mag() : entry.mag();
-      sum += parts[static_cast<std::size_t>(j)] = size * x[j].width();
+      const double size = j == buffers_->p.dependent[a] ? (entry - Interval(1.0)).mag() : entry.mag();
+      sum += parts[j] = size * x[j].width();
     }
     if (!(sum > 0 && std::isfinite(sum))) continue;
     for (std::size_t j = 0; j < parts.size(); ++j) sums[j] += std::sqrt(parts[j] / sum);
@@ -131,9 +130,7 @@ void NewtonStep::add_smears(std::span<const Interval> x, std::vector<double>& su
 
 void NewtonStep::check_part(std::span<const Interval> x) const {
   CORANK_CHECK(UpwardRounding::active());
-  bool part = true;
-  for (std::size_t j = 0; j < buffers_->stepped.size(); ++j) part = part && buffers_->stepped[j].contains(x[j]);
-  CORANK_CHECK(part);
+  CORANK_CHECK(contains(buffers_->stepped, x));
 }
 
 bool NewtonStep::contract_free(std::span<Interval> x) const {
@@ -142,13 +139,13 @@ bool NewtonStep::contract_free(std::span<Interval> x) const {
   NewtonBuffers& w = *buffers_;
   const Preconditioner& p = w.p;
   const int r = p.rank(), n = w.panel.columns();
-  w.is_dependent.assign(static_cast<std::size_t>(n), 0);
+  w.is_dependent.assign(n, 0);
   for (int d : p.dependent) w.is_dependent[d] = 1;
   w.free.clear();
   for (int j = 0; j < n; ++j)
     if (!w.is_dependent[j]) w.free.push_back(j);
   // image (r) := Y·F(c) + (Y·S)_D (x_D − c_D)
-  w.offset.assign(static_cast<std::size_t>(n), Interval());
+  w.offset.assign(n, Interval());
   for (int d : p.dependent) w.offset[d] = x[d] - Interval(w.center[d]);
   w.image = w.residual;
   w.panel.accumulate(w.offset.data(), p.dependent, Panel::Diagonal::zero, w.image);
@@ -186,40 +183,18 @@ bool krawczyk(const CompiledSystem& system, const Preconditioner& p, std::span<c
   return bounded(w.image);
 }
 
-// Hypothesis (2): |I − Y·J_D(B)| r < r for some r > 0, which holds for some r exactly where the spectral radius is below 1.
-// The candidates for r come from power iteration, the first one is the variables' scales; the one that passes is checked
-// with upward rounding.
+// Hypothesis (2): |I − Y·J_D(B)| r < r for some r > 0.
 bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> b,
                          NewtonBuffers& w) {
-  constexpr int kCandidates = 6;
-  const int r = p.rank();
   system.jacobian(b, w.slope);
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
-  w.magnitude.resize(static_cast<std::size_t>(r) * r);
-  for (int a = 0; a < r; ++a) {
-    for (int k = 0; k < r; ++k)
-      w.magnitude[static_cast<std::size_t>(a) * r + k] =
-          (Interval(k == a ? 1.0 : 0.0) - w.panel.at(a, p.dependent[k])).mag();
+  std::vector<double> distance, sizes;
+  for (int a = 0; a < p.rank(); ++a) {
+    for (int k = 0; k < p.rank(); ++k)
+      distance.push_back((Interval(k == a ? 1.0 : 0.0) - w.panel.at(a, p.dependent[k])).mag());
+    sizes.push_back(system.scales()[p.dependent[a]]);
   }
-  const auto scale = [&](int a) { return system.scales()[static_cast<std::size_t>(p.dependent[a])]; };
-  w.radius.resize(r);
-  for (int a = 0; a < r; ++a) w.radius[a] = scale(a);
-  w.next_radius.resize(r);
-  for (int candidate = 0; candidate < kCandidates; ++candidate) {
-    bool passes = true;
-    double largest = 0;
-    for (int a = 0; a < r; ++a) {
-      double sum = 0;  // upward rounding: an upper bound of (|E| r)_a
-      for (int k = 0; k < r; ++k) sum += w.magnitude[static_cast<std::size_t>(a) * r + k] * w.radius[k];
-      if (!std::isfinite(sum)) return false;
-      passes = passes && sum < w.radius[a];
-      w.next_radius[a] = sum;
-      largest = std::max(largest, sum / scale(a));
-    }
-    if (passes) return true;
-    for (int a = 0; a < r; ++a) w.radius[a] = w.next_radius[a] / largest + 0.05 * scale(a);
-  }
-  return false;
+  return is_contraction(distance, std::move(sizes));
 }
 
 }  // namespace
@@ -227,7 +202,7 @@ bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, 
 Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x,
                    NewtonWorkspace& workspace, int iterations) {
   CORANK_CHECK(UpwardRounding::active());
-  const BorrowedBuffers borrowed(workspace);
+  const NewtonWorkspace::Borrowed borrowed = workspace.take();
   NewtonBuffers& w = *borrowed;
   Sheet sheet;
   const int r = p.rank(), n = system.variables();
@@ -269,7 +244,7 @@ Interval NewtonStep::value_at_zeros(int row, std::span<const Interval> x) const 
   const Preconditioner& p = w.p;
   const CompiledSystem& system = *system_;
   const int r = p.rank(), n = system.variables();
-  w.slope.resize(static_cast<std::size_t>(system.entries()));
+  w.slope.resize(system.entries());
   system.slopes(row, x, w.center.data(), w.slope);
   w.gradient.assign(n, Interval());
   for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) w.gradient[system.column(k)] = w.slope[k];

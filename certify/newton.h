@@ -20,10 +20,15 @@ struct Preconditioner {
   int rank() const { return static_cast<int>(dependent.size()); }
 };
 
+/// For given dependent variables, of pieces whose chart is known: all m equations, these m dependents, Y the inverse of
+/// their Jacobian at the point, in floating point; 0 where it has none.
+Preconditioner midpoint_preconditioner(const CompiledSystem& system, const std::vector<double>& point,
+                                       const std::vector<int>& dependent);
+
 struct NewtonBuffers;  // certify/newton_buffers.h
 
 /// Memory for the steps and proofs of one thread, so that they need not allocate any: nothing in it means anything. Outlives
-/// its steps.
+/// its steps, and stays where it is as long as there are some.
 class NewtonWorkspace {
  public:
   NewtonWorkspace();
@@ -31,9 +36,13 @@ class NewtonWorkspace {
   NewtonWorkspace(NewtonWorkspace&&) noexcept;
   NewtonWorkspace& operator=(NewtonWorkspace&&) noexcept;
 
-  /// Buffers until they are given back.
-  std::unique_ptr<NewtonBuffers> take();
-  void give_back(std::unique_ptr<NewtonBuffers> buffers);
+  struct GiveBack {
+    NewtonWorkspace* home;
+    void operator()(NewtonBuffers* buffers) const;
+  };
+  /// Buffers that come back at the end of their use.
+  using Borrowed = std::unique_ptr<NewtonBuffers, GiveBack>;
+  Borrowed take();
 
  private:
   std::vector<std::unique_ptr<NewtonBuffers>> spare_;
@@ -57,9 +66,6 @@ class NewtonStep {
   /// the others. Points of X outside the contracted box are no solutions; where a row is unsatisfiable, X holds none. Proves
   /// nothing about existence.
   NewtonStep(const CompiledSystem& system, const Preconditioner& p, std::span<Interval> x, NewtonWorkspace& w);
-  ~NewtonStep();
-  NewtonStep(NewtonStep&& other) noexcept;
-  NewtonStep& operator=(NewtonStep&& other) noexcept;
 
   const NewtonOutcome& outcome() const { return outcome_; }
   const CompiledSystem& system() const { return *system_; }
@@ -94,8 +100,7 @@ class NewtonStep {
   void check_part(std::span<const Interval> x) const;
 
   const CompiledSystem* system_;
-  NewtonWorkspace* home_;
-  std::unique_ptr<NewtonBuffers> buffers_;
+  NewtonWorkspace::Borrowed buffers_;
   NewtonOutcome outcome_;
   bool bounded_ = false;  // Y·S and Y·F(c) are
 };
@@ -103,8 +108,8 @@ class NewtonStep {
 /// What newton_prove shows about a box of values of the free variables.
 struct Sheet {
   bool proven = false;
-  std::vector<int>
-      equations;    ///< the rows that the proof speaks of: all of them, or a subset (over-determined systems, self-motions)
+  /// The rows that the proof speaks of: all of them, or a subset (over-determined systems, self-motions).
+  std::vector<int> equations;
   int motion = -1;  ///< which self-motion it lies on, along which all rows hold (certify/self_motion.h); −1: none
   std::vector<int> dependent;
   std::vector<Interval> region;  ///< n: free sides as given, dependent sides inflated
@@ -118,8 +123,7 @@ struct Sheet {
 /// Theorem (parametric Krawczyk; keys Krawczyk1969, Neumaier1990 ch. 5, Rump2010; proof in doc/theory.md): let Z be a box of
 /// dependent values, B = X_F × Z, c a centre and K = c_D − Y·F(c) + (I − Y·S_D(B))(Z − c_D) − Y·S_F(B)(X_F − c_F).
 ///   (1) K ⊂ int Z                          ⇒ for every f ∈ X_F the map d ↦ d − Y·F(f, d) sends Z into itself and has a
-///   fixed
-///                                            point (Brouwer), and every zero of F(f, ·) in Z lies in K;
+///                                            fixed point (Brouwer), and every zero of F(f, ·) in Z lies in K;
 ///   (2) |I − Y·J_D(B)|·r < r for some r > 0 ⇒ every matrix in Y·J_D(B) is regular, so Y is regular (fixed points are zeros)
 ///                                            and F(f, ·) has at most one zero in Z (mean value theorem, row by row);
 ///   (3) every zero of F in B lies in X_F × K. So if Z_{k+1} ⊇ K(Z_k) and Z_0 is x's own, no zero of x is left behind.

@@ -27,15 +27,15 @@ std::optional<std::vector<Box>> pairs(const std::vector<CoverBox>& boxes, const 
     sorted.push_back(&b.box);
   }
   const auto lower = [&](const Box* b) { return shared.empty() ? 0.0 : (*b)[shared[0]].lo(); };
-  std::sort(sorted.begin(), sorted.end(), [&](const Box* a, const Box* b) { return lower(a) < lower(b); });
+  std::ranges::sort(sorted, [&](const Box* a, const Box* b) { return lower(a) < lower(b); });
 
   const Box domain = doubled.domain();
   std::vector<Box> result;
   const auto add = [&](const Box& a, const Box& b) {
     Box x = domain;
     for (std::size_t j = 0; j < n; ++j) {
-      if (!x[static_cast<std::size_t>(layout.first[j])].intersect(a[j])) return;
-      if (!x[static_cast<std::size_t>(layout.second[j])].intersect(b[j])) return;
+      if (!x[layout.first[j]].intersect(a[j])) return;
+      if (!x[layout.second[j]].intersect(b[j])) return;
     }
     for (int row = compiled.equations(); row < compiled.rows(); ++row)
       if (compiled.evaluate(row, x).hi() < 0) return;
@@ -45,7 +45,7 @@ std::optional<std::vector<Box>> pairs(const std::vector<CoverBox>& boxes, const 
     for (std::size_t k = i; k < sorted.size(); ++k) {
       const Box &a = *sorted[i], &b = *sorted[k];
       if (!shared.empty() && b[shared[0]].lo() > a[shared[0]].hi()) break;
-      if (!std::all_of(shared.begin(), shared.end(), [&](std::size_t j) { return a[j].overlaps(b[j]); })) continue;
+      if (!std::ranges::all_of(shared, [&](std::size_t j) { return a[j].overlaps(b[j]); })) continue;
       add(a, b);
       if (k != i) add(b, a);
       if (result.size() > most) return std::nullopt;

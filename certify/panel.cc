@@ -111,7 +111,7 @@ bool Panel::set_matrix(const std::vector<double>& y, int r) {
   if (r > 0 && r == r_ && y.size() == y_.size() && std::memcmp(y.data(), y_.data(), y.size() * sizeof(double)) == 0)
     return finite_;
   y_ = y;
-  finite_ = std::all_of(y.begin(), y.end(), [](double entry) { return std::isfinite(entry); });
+  finite_ = std::ranges::all_of(y, [](double entry) { return std::isfinite(entry); });
   r_ = r;
   stride_ = whole_lanes(static_cast<std::size_t>(r));
   positive_.resize(static_cast<std::size_t>(r) * stride_);
@@ -142,7 +142,7 @@ void Panel::multiply(const std::vector<Interval>& values, std::vector<Interval>&
   sum_upper_.resize(stride_);
   multiply_vector({positive_.data(), negative_.data(), stride_}, values.data(), r_, sum_negated_lower_.data(),
                   sum_upper_.data());
-  result.resize(static_cast<std::size_t>(r_));
+  result.resize(r_);
   for (std::size_t a = 0; a < result.size(); ++a) result[a] = Interval(-sum_negated_lower_[a], sum_upper_[a]);
 }
 
@@ -153,10 +153,10 @@ void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent
   for (int j = 0; j < n_; ++j) plain = plain && offset[j].is_bounded();
   const auto entry = [&](int a, int d) { return minus_one ? at(a, d) - Interval(1.0) : Interval(); };
   for (int a = 0; a < r_ && plain && minus_one; ++a)
-    plain = entry(a, dependent[static_cast<std::size_t>(a)]).is_bounded();  // largest + 1 rounds to infinity
+    plain = entry(a, dependent[a]).is_bounded();  // largest + 1 rounds to infinity
   if (plain) {
-    diagonal_.assign(static_cast<std::size_t>(n_), -1.0);
-    for (int a = 0; a < r_; ++a) diagonal_[static_cast<std::size_t>(dependent[static_cast<std::size_t>(a)])] = a;
+    diagonal_.assign(n_, -1.0);
+    for (int a = 0; a < r_; ++a) diagonal_[dependent[a]] = a;
     sum_negated_lower_.resize(stride_);
     sum_upper_.resize(stride_);
     multiply_panel(negated_lower_.data(), upper_.data(), stride_, offset, n_, diagonal_.data(), minus_one,
@@ -166,8 +166,8 @@ void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent
     return;
   }
   for (int a = 0; a < r_; ++a) {
-    const int d = dependent[static_cast<std::size_t>(a)];
-    for (int j = 0; j < n_; ++j) sums[static_cast<std::size_t>(a)] += (j == d ? entry(a, d) : at(a, j)) * offset[j];
+    const int d = dependent[a];
+    for (int j = 0; j < n_; ++j) sums[a] += (j == d ? entry(a, d) : at(a, j)) * offset[j];
   }
 }
 
@@ -175,13 +175,12 @@ double Panel::distance_from_identity(const std::vector<int>& dependent, const st
   sum_upper_.assign(stride_, 0.0);
   for (std::size_t a = 0; a < dependent.size(); ++a) {
     const std::size_t column = index(0, dependent[a]);
-    const double others = sum_upper_[a], weight = weights[static_cast<std::size_t>(dependent[a])];
+    const double others = sum_upper_[a], weight = weights[dependent[a]];
     add_magnitudes(&negated_lower_[column], &upper_[column], stride_, weight, sum_upper_.data());
     sum_upper_[a] = others + weight * (Interval(1.0) - at(static_cast<int>(a), dependent[a])).mag();
   }
   double largest = 0;
-  for (std::size_t a = 0; a < dependent.size(); ++a)
-    largest = std::max(largest, sum_upper_[a] / weights[static_cast<std::size_t>(dependent[a])]);
+  for (std::size_t a = 0; a < dependent.size(); ++a) largest = std::max(largest, sum_upper_[a] / weights[dependent[a]]);
   return largest;
 }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
+#include "corank/certify/inertia.h"
 #include "corank/core/cover.h"
 
 namespace corank::certify {
@@ -42,13 +43,11 @@ class PassageTest {
     std::vector<double> side;
   };
   struct Basis {
-    std::vector<int> rows, dependent, others;
+    std::vector<int> rows, dependent;
   };
   Interval value(int index, const Box& box) const;
   bool choose(const Box& box, Basis& basis) const;
-  bool reduce(const Box& box, const Basis& basis, std::vector<Interval>& form) const;
-  bool is_definite(const std::vector<Interval>& form, std::size_t k, int sign) const;
-  bool takes_both_signs(const std::vector<Interval>& form, std::size_t k, const std::vector<Interval>& slack) const;
+  std::optional<IntervalMatrix> reduce(const Box& box, const Basis& basis) const;
   bool holds(const Claim& claim, const Box& box) const;
   bool holds(const Claim& claim, Box box, int halvings) const;
   bool contract(Box& box) const;

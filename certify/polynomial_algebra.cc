@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <set>
 
 #include "corank/certify/trigonometric.h"
 #include "corank/core/check.h"
@@ -10,16 +10,6 @@
 
 namespace corank::certify {
 namespace {
-
-using Factors = std::vector<Factor>;
-
-struct ByVariables {
-  bool operator()(const Factors& a, const Factors& b) const {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](const Factor& x, const Factor& y) {
-      return std::tie(x.variable, x.power, x.function) < std::tie(y.variable, y.power, y.function);
-    });
-  }
-};
 
 struct Coefficient {
   ExactNumber exact;
@@ -50,7 +40,7 @@ class Sum {
   }
 
  private:
-  std::map<Factors, Coefficient, ByVariables> terms_;
+  std::map<Factors, Coefficient> terms_;
 };
 
 Factors product(const Factors& a, const Factors& b) {
@@ -85,8 +75,8 @@ std::vector<Monomial> product(const std::vector<Monomial>& a, const std::vector<
 bool carries_tolerance(const Monomial& m) { return !m.coefficient.enclose().contains(m.enclosure); }
 
 bool mentions(const Polynomial& f, int variable) {
-  return std::any_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
-    return std::any_of(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == variable; });
+  return std::ranges::any_of(f.monomials, [&](const Monomial& m) {
+    return std::ranges::any_of(m.factors, [&](const Factor& x) { return x.variable == variable; });
   });
 }
 
@@ -95,8 +85,7 @@ Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value
   Sum sum;
   for (const Monomial& m : f.monomials) {
     CORANK_CHECK(!m.is_trigonometric() || m.factors[0].variable != variable);
-    const auto at =
-        std::find_if(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == variable; });
+    const auto at = std::ranges::find_if(m.factors, [&](const Factor& x) { return x.variable == variable; });
     if (at == m.factors.end()) {
       sum.add(m);
       continue;
@@ -110,7 +99,7 @@ Polynomial substitute(const Polynomial& f, int variable, const Polynomial& value
   return {sum.monomials(), f.source};
 }
 
-Polynomial product(const Polynomial& f, const std::vector<Factor>& powers) {
+Polynomial product(const Polynomial& f, const Factors& powers) {
   CORANK_CHECK(UpwardRounding::active());
   return {product(f.monomials, {Monomial(1, powers)}), f.source};
 }
@@ -147,8 +136,7 @@ Polynomial sum(const Polynomial& f, const ExactNumber& q, const Polynomial& g) {
   Sum sum;
   for (const Monomial& m : f.monomials) sum.add(m);
   for (const Monomial& m : g.monomials) {
-    const auto own =
-        std::find_if(f.monomials.begin(), f.monomials.end(), [&](const Monomial& a) { return a.factors == m.factors; });
+    const auto own = std::ranges::find_if(f.monomials, [&](const Monomial& a) { return a.factors == m.factors; });
     if (own != f.monomials.end() && !carries_tolerance(m) && !carries_tolerance(*own) &&
         cancels(own->coefficient, q, m.coefficient)) {
       sum.remove(m.factors);
@@ -184,33 +172,38 @@ std::optional<ExactNumber> proportional(const Polynomial& f, const Polynomial& g
   return ratio.value_or(1);
 }
 
-Product product_of(const Monomial& m) {
-  Product product;
-  for (const Factor& x : m.factors) product.insert(product.end(), {x.variable, x.power, static_cast<int>(x.function)});
-  return product;
-}
-
 Products products_of(const Polynomial& f) {
   Products products;
-  for (const Monomial& m : f.monomials) products.push_back(product_of(m));
-  std::sort(products.begin(), products.end());
+  for (const Monomial& m : f.monomials) products.push_back(m.factors);
+  std::ranges::sort(products);
   products.erase(std::unique(products.begin(), products.end()), products.end());
   return products;
 }
 
-std::vector<int> variables_of(const Polynomial& f) {
-  std::vector<int> result;
-  for (const Monomial& m : f.monomials)
-    for (const Factor& x : m.factors) result.push_back(x.variable);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+std::vector<int> variables_of(std::span<const Polynomial> list) {
+  std::set<int> result;
+  for (const Polynomial& f : list)
+    for (const Monomial& m : f.monomials)
+      for (const Factor& x : m.factors) result.insert(x.variable);
+  return {result.begin(), result.end()};
 }
 
+std::vector<int> variables_of(const Polynomial& f) { return variables_of({&f, 1}); }
+
 bool is_affine(const Polynomial& f) {
-  return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+  return std::ranges::all_of(f.monomials, [](const Monomial& m) {
     return m.factors.empty() || (m.factors.size() == 1 && m.factors[0].power == 1 && !m.is_trigonometric());
   });
+}
+
+Interval evaluate(const Factor& f, const std::vector<Interval>& x) {
+  const Interval& side = x[f.variable];
+  switch (f.function) {
+    case Function::identity: return power(side, f.power);
+    case Function::sine: return sine(side);
+    case Function::cosine: return cosine(side);
+  }
+  return Interval::whole();
 }
 
 Interval evaluate(const Polynomial& f, const std::vector<Interval>& x) {
@@ -218,14 +211,7 @@ Interval evaluate(const Polynomial& f, const std::vector<Interval>& x) {
   Interval sum;
   for (const Monomial& m : f.monomials) {
     Interval term = m.enclosure;
-    for (const Factor& factor : m.factors) {
-      const Interval& side = x[static_cast<std::size_t>(factor.variable)];
-      switch (factor.function) {
-        case Function::identity: term *= power(side, factor.power); break;
-        case Function::sine: term *= sine(side); break;
-        case Function::cosine: term *= cosine(side); break;
-      }
-    }
+    for (const Factor& factor : m.factors) term *= evaluate(factor, x);
     sum += term;
   }
   return sum;

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "corank/core/system.h"
 
@@ -35,25 +37,24 @@ Polynomial sum(const Polynomial& f, const ExactNumber& q, const Polynomial& g);
 
 /// f times a product of powers of variables, which must be 1 where f has a sine or cosine. Requires
 /// UpwardRounding::active().
-Polynomial product(const Polynomial& f, const std::vector<Factor>& powers);
+Polynomial product(const Polynomial& f, const Factors& powers);
 
 /// Does the variable occur in f?
 bool mentions(const Polynomial& f, int variable);
 
-/// The monomial without its coefficient, as a key.
-using Product = std::vector<int>;
-Product product_of(const Monomial& m);
 /// The products that f has, in order; equations that repeat each other have the same.
-using Products = std::vector<Product>;
+using Products = std::vector<Factors>;
 Products products_of(const Polynomial& f);
 
-/// The variables that f has, in order.
+/// The variables that f has, or all of a list, in order.
 std::vector<int> variables_of(const Polynomial& f);
+std::vector<int> variables_of(std::span<const Polynomial> list);
 
 /// Is f = Σ aᵢ·xᵢ + b?
 bool is_affine(const Polynomial& f);
 
-/// Encloses {f(x) : x ∈ X}: the natural interval extension over the enclosures. Requires UpwardRounding::active().
+/// Encloses {f(x) : x ∈ X}: the natural interval extension over the enclosures. These require UpwardRounding::active().
+Interval evaluate(const Factor& f, const std::vector<Interval>& x);
 Interval evaluate(const Polynomial& f, const std::vector<Interval>& x);
 
 }  // namespace corank::certify

@@ -67,8 +67,7 @@ class Projector {
 
 bool is_linear(std::span<const CompiledSystem::Term> terms) {
   using Shape = CompiledSystem::Shape;
-  return std::all_of(terms.begin(), terms.end(),
-                     [](const auto& t) { return t.shape == Shape::constant || t.shape == Shape::linear; });
+  return std::ranges::all_of(terms, [](const auto& t) { return t.shape == Shape::constant || t.shape == Shape::linear; });
 }
 
 // f(x) ≥ 0 by slopes: f(c) + Σ s_j·(x_j − c_j), solved for each x_j.
@@ -82,7 +81,7 @@ bool project_by_slopes(const CompiledSystem& system, int row, std::span<Interval
     if (!x[j].is_bounded()) return true;
     center[j] = x[j].mid();
   }
-  slopes.resize(static_cast<std::size_t>(system.entries()));
+  slopes.resize(system.entries());
   offsets.resize(slopes.size());
   system.slopes(row, x, center.data(), slopes);
   const Interval at_center = system.evaluate_at(row, center.data());

@@ -32,8 +32,8 @@ Rewriting::Rewriting(const System& system, bool tolerant, std::vector<int> param
   for (const auto* rows : {&system_.equations, &system_.inequalities})
     for (const Polynomial& f : *rows)
       for (const Monomial& m : f.monomials)
-        if (m.is_trigonometric()) stays_[static_cast<std::size_t>(m.factors[0].variable)] = true;
-  for (const int p : parameters_) stays_[static_cast<std::size_t>(p)] = true;
+        if (m.is_trigonometric()) stays_[m.factors[0].variable] = true;
+  for (const int p : parameters_) stays_[p] = true;
   // From here on the tolerance stands in the enclosures.
   if (tolerant_)
     for (auto* rows : {&system_.equations, &system_.inequalities})
@@ -62,8 +62,7 @@ bool Rewriting::within_tolerance(const Polynomial& f, double scale) const {
 
 bool Rewriting::negligible(std::size_t row) const {
   const auto& monomials = system_.equations[row].monomials;
-  return tolerant_ &&
-         std::all_of(monomials.begin(), monomials.end(), [](const Monomial& m) { return m.coefficient.is_zero(); }) &&
+  return tolerant_ && std::ranges::all_of(monomials, [](const Monomial& m) { return m.coefficient.is_zero(); }) &&
          within_tolerance(system_.equations[row], scales_[row]);
 }
 
@@ -85,7 +84,7 @@ bool Rewriting::drop_identities() {
 }
 
 void Rewriting::erase_row(std::size_t row) {
-  const auto at = static_cast<std::ptrdiff_t>(row);
+  const std::ptrdiff_t at = row;
   system_.equations.erase(system_.equations.begin() + at);
   origins_.erase(origins_.begin() + at);
   scales_.erase(scales_.begin() + at);
@@ -93,9 +92,7 @@ void Rewriting::erase_row(std::size_t row) {
 
 void Rewriting::drop_repeated() {
   auto& rows = system_.equations;
-  const auto is_exact = [](const Polynomial& f) {
-    return std::none_of(f.monomials.begin(), f.monomials.end(), carries_tolerance);
-  };
+  const auto is_exact = [](const Polynomial& f) { return std::ranges::none_of(f.monomials, carries_tolerance); };
   const auto repeats = [&](std::size_t row, const Polynomial& g) {
     Polynomial f = rows[row];
     const auto ratio = proportional(f, g);
@@ -116,7 +113,7 @@ void Rewriting::drop_repeated() {
   for (std::size_t row = 0; row < rows.size();) {
     poll_();
     std::vector<std::size_t>& others = alike[products_of(rows[row])];
-    if (std::any_of(others.begin(), others.end(), [&](std::size_t other) { return repeats(row, rows[other]); })) {
+    if (std::ranges::any_of(others, [&](std::size_t other) { return repeats(row, rows[other]); })) {
       erase_row(row);
     } else {
       others.push_back(row++);
@@ -125,12 +122,12 @@ void Rewriting::drop_repeated() {
 }
 
 void Rewriting::carry_domain(int x, const Polynomial& value) {
-  const Variable& from = system_.variables[static_cast<std::size_t>(x)];
+  const Variable& from = system_.variables[x];
   const std::vector<int> others = variables_of(value);
-  const auto is_parameter = [&](int j) { return std::find(parameters_.begin(), parameters_.end(), j) != parameters_.end(); };
+  const auto is_parameter = [&](int j) { return std::ranges::find(parameters_, j) != parameters_.end(); };
   if (others.size() == 1 && is_affine(value) && !is_parameter(others[0])) {
     // x = a·y + c ∈ [l, u]  ⇔  y ∈ [(l − c)/a, (u − c)/a], swapped where a < 0.
-    Variable& y = system_.variables[static_cast<std::size_t>(others[0])];
+    Variable& y = system_.variables[others[0]];
     ExactNumber a, c;
     for (const Monomial& m : value.monomials) (m.factors.empty() ? c : a) = m.coefficient;
     ExactNumber lower = (from.lower - c) / a, upper = (from.upper - c) / a;
@@ -179,19 +176,19 @@ void Rewriting::carry_domain(int x, const Polynomial& value) {
 }
 
 std::size_t Rewriting::row_of(int equation) const {
-  const auto at = std::find(origins_.begin(), origins_.end(), equation);
+  const auto at = std::ranges::find(origins_, equation);
   CORANK_CHECK(at != origins_.end());
   return static_cast<std::size_t>(at - origins_.begin());
 }
 
 std::optional<Polynomial> Rewriting::value_of(int variable, std::size_t row) const {
   const Polynomial& f = system_.equations[row];
-  const bool is_definition = !tolerant_ || std::all_of(f.monomials.begin(), f.monomials.end(), is_integer);
+  const bool is_definition = !tolerant_ || std::ranges::all_of(f.monomials, is_integer);
   return is_definition && may_go(variable) ? solved_for(f, variable) : std::nullopt;
 }
 
 std::optional<Polynomial> Rewriting::fixed_value(int variable) const {
-  const Variable& v = system_.variables[static_cast<std::size_t>(variable)];
+  const Variable& v = system_.variables[variable];
   if (!may_go(variable) || !(v.lower == v.upper)) return std::nullopt;
   Polynomial value{{}, "domain of " + v.name};
   if (!v.lower.is_zero()) value.monomials.emplace_back(v.lower, std::vector<Factor>{});
@@ -218,7 +215,7 @@ void Rewriting::apply(const SumOfEquations& step) {
 
 void Rewriting::replace_everywhere(int variable, Polynomial value) {
   refresh(value);
-  gone_[static_cast<std::size_t>(variable)] = true;
+  gone_[variable] = true;
   const auto replace = [&](Polynomial& f) {
     if (!mentions(f, variable)) return;
     poll_();
@@ -245,7 +242,7 @@ Reduction Rewriting::result() const {
     }
   const auto renamed = [&](Polynomial f) {
     for (Monomial& m : f.monomials)
-      for (Factor& x : m.factors) x.variable = index[static_cast<std::size_t>(x.variable)];
+      for (Factor& x : m.factors) x.variable = index[x.variable];
     return f;
   };
   result.system.name = system_.name;
@@ -263,9 +260,8 @@ Reduction Rewriting::result() const {
 std::vector<Interval> Reduction::lift(const std::vector<Interval>& sides) const {
   CORANK_CHECK(sides.size() == kept.size() + definitions.size());
   std::vector<Interval> box(sides.size());
-  for (std::size_t j = 0; j < kept.size(); ++j) box[static_cast<std::size_t>(kept[j])] = sides[j];
-  for (std::size_t d = 0; d < definitions.size(); ++d)
-    box[static_cast<std::size_t>(definitions[d].variable)] = sides[kept.size() + d];
+  for (std::size_t j = 0; j < kept.size(); ++j) box[kept[j]] = sides[j];
+  for (std::size_t d = 0; d < definitions.size(); ++d) box[definitions[d].variable] = sides[kept.size() + d];
   return box;
 }
 
@@ -282,6 +278,32 @@ Reduction apply(const System& system, const std::vector<ReductionStep>& steps) {
     }
   if (rewriting.drop_identities()) rewriting.drop_repeated();
   return rewriting.result();
+}
+
+Polynomial implied_equation(const System& system, const ImpliedEquation& of) {
+  Polynomial h;
+  for (const ImpliedEquation::Part& part : of.parts) {
+    CORANK_CHECK(part.equation >= 0 && part.factor.is_rational());
+    const std::size_t k = part.equation;
+    const std::size_t m = system.equations.size();
+    CORANK_CHECK(k < m + system.implied.size());
+    h = sum(h, part.factor, product(k < m ? system.equations[k] : system.implied[k - m], part.product));
+  }
+  return h;
+}
+
+void add_implied(Reduction& reduction, const ImpliedEquation& of, const std::string& source) {
+  Polynomial h = implied_equation(reduction.system, of);
+  h.source = source;
+  ImpliedEquation step = of;
+  const int m = static_cast<int>(reduction.system.equations.size());
+  for (ImpliedEquation::Part& part : step.parts) {
+    part.equation = part.equation < m ? reduction.origins[part.equation] : reduction.given_equations + (part.equation - m);
+    for (Factor& x : part.product) x.variable = reduction.kept[x.variable];
+    // `kept` ascends, so the factors stay sorted.
+  }
+  reduction.system.implied.push_back(std::move(h));
+  reduction.steps.emplace_back(std::move(step));
 }
 
 }  // namespace corank::certify

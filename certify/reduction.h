@@ -17,6 +17,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -70,9 +71,7 @@ class Rewriting {
   bool consistent() const { return consistent_; }
 
   /// May the variable be eliminated: is it in no sine or cosine, no parameter, and still there?
-  bool may_go(int variable) const {
-    return !stays_[static_cast<std::size_t>(variable)] && !gone_[static_cast<std::size_t>(variable)];
-  }
+  bool may_go(int variable) const { return !stays_[variable] && !gone_[variable]; }
   /// −g/a where that equation is a·x + g = 0 of (a) or (b): a rational a ≠ 0, x not in g, no tolerance.
   std::optional<Polynomial> value_of(int variable, std::size_t row) const;
   /// Its value where its domain is one number.
@@ -115,8 +114,20 @@ class Rewriting {
   bool consistent_ = true;
 };
 
-/// The system after these steps, none of which is an implied equation (certify/implied_equation.h), without what then holds
+/// The system after these steps, none of which is an implied equation, without what then holds
 /// identically or repeats another. Enclosures carry the tolerance unless equations outnumber variables, as in a checker.
 Reduction apply(const System& system, const std::vector<ReductionStep>& steps);
+
+/// An equation that follows from others, h = Σ c·p·f with rational numbers c (factors), products p of powers of variables,
+/// and equations f of the reduced system: `of` names those of `system` by their indices, then its implied ones; variables
+/// are `system`'s. Requires UpwardRounding::active().
+/// Theorem: where all f vanish, so does h. So boxes may be shrunk by h = 0 (certify/projection.h), and no solution is lost,
+/// whatever the c and p are. It is no equation of the system: no statement about existence, uniqueness or rank rests on it.
+/// Proof: put in. The c and p stand in the reduction's steps, so that a checker forms h itself.
+Polynomial implied_equation(const System& system, const ImpliedEquation& of);
+
+/// Adds the equation to reduction.system.implied and, by the names of the original system, to reduction.steps. Requires
+/// UpwardRounding::active().
+void add_implied(Reduction& reduction, const ImpliedEquation& of, const std::string& source);
 
 }  // namespace corank::certify

@@ -36,9 +36,9 @@ ExactNumber from_mpfr(mpfr_srcptr x) {
 
 Range to_range(const std::pair<ExactNumber, ExactNumber>& bounds) {
   Range lower, upper;
-  mpfi_set_q(lower.data(), rational(bounds.first).get_mpq_t());
-  mpfi_set_q(upper.data(), rational(bounds.second).get_mpq_t());
-  mpfi_union(lower.data(), lower.data(), upper.data());
+  mpfi_set_q(lower, rational(bounds.first).get_mpq_t());
+  mpfi_set_q(upper, rational(bounds.second).get_mpq_t());
+  mpfi_union(lower, lower, upper);
   return lower;
 }
 
@@ -57,9 +57,9 @@ class Equations {
 
   T value(int row, const std::vector<T>& x) const {
     T sum(0);
-    const auto& monomials = system_.equations[static_cast<std::size_t>(row)].monomials;
+    const auto& monomials = system_.equations[row].monomials;
     for (std::size_t k = 0; k < monomials.size(); ++k) {
-      T product = coefficients_[static_cast<std::size_t>(row)][k];
+      T product = coefficients_[row][k];
       for (const Factor& f : monomials[k].factors) product *= factor(f, x, f.power);
       sum += product;
     }
@@ -68,26 +68,26 @@ class Equations {
 
   // Adds ∂f_row/∂x_j to j's entry of the gradient.
   void gradient(int row, const std::vector<T>& x, std::vector<T>& gradient) const {
-    std::fill(gradient.begin(), gradient.end(), T(0));
-    const auto& monomials = system_.equations[static_cast<std::size_t>(row)].monomials;
+    std::ranges::fill(gradient, T(0));
+    const auto& monomials = system_.equations[row].monomials;
     for (std::size_t k = 0; k < monomials.size(); ++k)
       for (const Factor& by : monomials[k].factors) {
-        T product = coefficients_[static_cast<std::size_t>(row)][k];
+        T product = coefficients_[row][k];
         for (const Factor& f : monomials[k].factors)
           if (f.variable != by.variable) product *= factor(f, x, f.power);
-        const T& at = x[static_cast<std::size_t>(by.variable)];
+        const T& at = x[by.variable];
         switch (by.function) {
           case Function::identity: product *= T(by.power) * factor(by, x, by.power - 1); break;
           case Function::sine: product *= cos(at); break;
           case Function::cosine: product *= -sin(at); break;
         }
-        gradient[static_cast<std::size_t>(by.variable)] += product;
+        gradient[by.variable] += product;
       }
   }
 
  private:
   static T factor(const Factor& f, const std::vector<T>& x, int power) {
-    const T& at = x[static_cast<std::size_t>(f.variable)];
+    const T& at = x[f.variable];
     if (f.function == Function::sine) return sin(at);
     if (f.function == Function::cosine) return cos(at);
     T result(1);
@@ -157,7 +157,7 @@ std::vector<double> row_sizes(const System& system, const std::vector<double>& s
     for (const Monomial& m : f.monomials) {
       double product = m.enclosure.mag();
       for (const Factor& x : m.factors) {
-        const std::size_t j = static_cast<std::size_t>(x.variable);
+        const std::size_t j = x.variable;
         if (x.function == Function::identity)
           product *= std::pow(std::max(std::fabs(start[j]), std::min(system.variables[j].domain.mag(), largest)), x.power);
       }
@@ -183,7 +183,7 @@ std::optional<std::vector<double>> approached(const System& system, std::vector<
     double residual = 0;
     for (int row = 0; row < f.rows(); ++row) {
       value(row) = f.value(row, x);
-      if (value(row) != 0) residual = std::max(residual, std::fabs(value(row)) / sizes[static_cast<std::size_t>(row)]);
+      if (value(row) != 0) residual = std::max(residual, std::fabs(value(row)) / sizes[row]);
       f.gradient(row, x, gradient);
       for (std::size_t k = 0; k < x.size(); ++k) jacobian(row, static_cast<int>(k)) = gradient[k];
     }
@@ -250,8 +250,8 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
   for (int k = 0; k < kInflations && !is_over(ended); ++k) {
     for (std::size_t i = 0; i < n; ++i) {
       const Range r(radius[i]);
-      mpfi_neg(offset[i].data(), r.data());
-      mpfi_union(offset[i].data(), offset[i].data(), r.data());
+      mpfi_neg(offset[i], r);
+      mpfi_union(offset[i], offset[i], r);
       box[i] = center[i] + offset[i];
     }
     std::vector<std::vector<Range>> rows;
@@ -268,7 +268,7 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
         image[i] += entry * offset[j];
       }
       image[i] += center[i];
-      inside = inside && mpfi_is_strictly_inside(image[i].data(), box[i].data()) > 0;
+      inside = inside && mpfi_is_strictly_inside(image[i], box[i]) > 0;
     }
     if (inside) return image;
     for (std::size_t i = 0; i < n; ++i) radius[i] *= 2;
@@ -302,7 +302,7 @@ std::optional<ProvenZero> prove_zero(const System& system, const std::vector<Exa
     const auto image = krawczyk(system, start, bits, ended);
     if (!image) continue;
     const Real width = pow(Real(10), -digits);
-    const bool narrow = std::all_of(image->begin(), image->end(), [&](const Range& x) {
+    const bool narrow = std::ranges::all_of(*image, [&](const Range& x) {
       const Real lo(x.lower()), hi(x.upper());
       return hi - lo <= width * std::max(Real(1), abs(lo));
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corank/certify/trigonometric.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
@@ -27,19 +28,8 @@ Interval derivative(const Factor& factor, const Interval& x, int order) {
 Interval term(const Monomial& m, const Box& x, std::size_t a, std::size_t b) {
   Interval result = m.enclosure;
   for (std::size_t k = 0; k < m.factors.size(); ++k)
-    result *= derivative(m.factors[k], x[static_cast<std::size_t>(m.factors[k].variable)], (k == a) + (k == b));
+    result *= derivative(m.factors[k], x[m.factors[k].variable], (k == a) + (k == b));
   return result;
-}
-
-// VᵢᵀHVⱼ.
-Interval form(const IntervalMatrix& h, const IntervalMatrix& v, int i, int j) {
-  Interval sum;
-  for (int a = 0; a < h.rows; ++a) {
-    Interval row;
-    for (int b = 0; b < h.columns; ++b) row += h(a, b) * v(b, j);
-    sum += v(a, i) * row;
-  }
-  return sum;
 }
 
 }  // namespace
@@ -48,8 +38,7 @@ std::vector<Interval> gradient(const Polynomial& f, const Box& x) {
   CORANK_CHECK(UpwardRounding::active());
   std::vector<Interval> result(x.size());
   for (const Monomial& m : f.monomials)
-    for (std::size_t a = 0; a < m.factors.size(); ++a)
-      result[static_cast<std::size_t>(m.factors[a].variable)] += term(m, x, a, m.factors.size());
+    for (std::size_t a = 0; a < m.factors.size(); ++a) result[m.factors[a].variable] += term(m, x, a, m.factors.size());
   return result;
 }
 
@@ -67,18 +56,16 @@ IntervalMatrix hessian(const Polynomial& f, const Box& x) {
 std::optional<std::vector<SheetDerivatives>> sheet_derivatives(const System& system, const std::vector<int>& free,
                                                                const Box& box, const std::vector<Polynomial>& functions) {
   const int m = static_cast<int>(system.equations.size()), n = system.size(), d = static_cast<int>(free.size());
-  CORANK_CHECK(m + d == n && std::is_sorted(free.begin(), free.end()) && UpwardRounding::active());
-  std::vector<int> dependent;
-  for (int j = 0; j < n; ++j)
-    if (!std::binary_search(free.begin(), free.end(), j)) dependent.push_back(j);
+  CORANK_CHECK(m + d == n && std::ranges::is_sorted(free) && UpwardRounding::active());
+  const std::vector<int> dependent = all_but(free, n);
   IntervalMatrix jacobian(m, n);
   for (int k = 0; k < m; ++k) {
-    const std::vector<Interval> row = gradient(system.equations[static_cast<std::size_t>(k)], box);
-    for (int j = 0; j < n; ++j) jacobian(k, j) = row[static_cast<std::size_t>(j)];
+    const std::vector<Interval> row = gradient(system.equations[k], box);
+    for (int j = 0; j < n; ++j) jacobian(k, j) = row[j];
   }
   std::vector<double> sizes, dependent_sizes;
   for (const Variable& v : system.variables) sizes.push_back(v.size);
-  for (const int j : dependent) dependent_sizes.push_back(sizes[static_cast<std::size_t>(j)]);
+  for (const int j : dependent) dependent_sizes.push_back(sizes[j]);
   const auto basis = kernel_basis(jacobian, dependent, sizes);
   if (!basis) return std::nullopt;
   // [F_D, V_iᵀ D²F V_j for i ≤ j].
@@ -86,27 +73,25 @@ std::optional<std::vector<SheetDerivatives>> sheet_derivatives(const System& sys
   std::vector<int> first_columns;
   for (int k = 0; k < m; ++k) {
     first_columns.push_back(k);
-    for (int j = 0; j < m; ++j) extended(k, j) = jacobian(k, dependent[static_cast<std::size_t>(j)]);
-    const IntervalMatrix h = hessian(system.equations[static_cast<std::size_t>(k)], box);
+    for (int j = 0; j < m; ++j) extended(k, j) = jacobian(k, dependent[j]);
+    const IntervalMatrix bend = congruent(hessian(system.equations[k], box), *basis);
     int column = m;
     for (int i = 0; i < d; ++i)
-      for (int j = i; j < d; ++j) extended(k, column++) = form(h, *basis, i, j);
+      for (int j = i; j < d; ++j) extended(k, column++) = bend(i, j);
   }
   const auto bent = kernel_basis(extended, first_columns, dependent_sizes);
   if (!bent) return std::nullopt;
   std::vector<SheetDerivatives> result;
   for (const Polynomial& f : functions) {
     const std::vector<Interval> by = gradient(f, box);
-    const IntervalMatrix h = hessian(f, box);
-    SheetDerivatives along{std::vector<Interval>(static_cast<std::size_t>(d)), IntervalMatrix(d, d)};
+    const IntervalMatrix bend = congruent(hessian(f, box), *basis);
+    SheetDerivatives along{std::vector<Interval>(d), IntervalMatrix(d, d)};
     int column = 0;
     for (int i = 0; i < d; ++i) {
-      for (int j = 0; j < n; ++j)
-        along.first[static_cast<std::size_t>(i)] += by[static_cast<std::size_t>(j)] * (*basis)(j, i);
+      for (int j = 0; j < n; ++j) along.first[i] += by[j] * (*basis)(j, i);
       for (int j = i; j < d; ++j, ++column) {
-        Interval second = form(h, *basis, i, j);
-        for (int k = 0; k < m; ++k)
-          second += by[static_cast<std::size_t>(dependent[static_cast<std::size_t>(k)])] * (*bent)(k, column);
+        Interval second = bend(i, j);
+        for (int k = 0; k < m; ++k) second += by[dependent[k]] * (*bent)(k, column);
         along.second(i, j) = along.second(j, i) = second;
       }
     }

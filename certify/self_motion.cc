@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corank/certify/polynomial_algebra.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
@@ -24,7 +25,7 @@ int own_variable(const std::vector<Polynomial>& relations, std::size_t i) {
 }
 
 bool is_linear_and_rational(const Polynomial& f) {
-  return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+  return std::ranges::all_of(f.monomials, [](const Monomial& m) {
     return m.coefficient.is_rational() && m.degree() <= 1 && !m.is_trigonometric();
   });
 }
@@ -34,7 +35,7 @@ bool is_linear_and_rational(const Polynomial& f) {
 std::optional<SelfMotion> self_motion(const System& system, std::vector<Polynomial> relations, int dimension) {
   std::vector<Polynomial> rest = system.equations;
   for (const Polynomial& f : rest)
-    if (std::any_of(f.monomials.begin(), f.monomials.end(), carries_tolerance)) return std::nullopt;
+    if (std::ranges::any_of(f.monomials, carries_tolerance)) return std::nullopt;
   for (std::size_t i = 0; i < relations.size(); ++i) {
     const int v = own_variable(relations, i);
     if (v < 0 || !is_linear_and_rational(relations[i])) return std::nullopt;
@@ -50,9 +51,7 @@ std::optional<SelfMotion> self_motion(const System& system, std::vector<Polynomi
   std::vector<int> classes;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     if (rest[i].monomials.empty()) continue;
-    const bool known = std::any_of(classes.begin(), classes.end(), [&](int g) {
-      return proportional(rest[i], rest[static_cast<std::size_t>(g)]).has_value();
-    });
+    const bool known = std::ranges::any_of(classes, [&](int g) { return proportional(rest[i], rest[g]).has_value(); });
     if (!known) classes.push_back(static_cast<int>(i));
   }
   const int m = static_cast<int>(system.equations.size());
@@ -76,15 +75,14 @@ bool same_relations(const SelfMotion& a, const SelfMotion& b) {
     if (!value) return false;
     for (Polynomial& f : rest) f = substitute(f, v, *value);
   }
-  return std::all_of(rest.begin(), rest.end(), [](const Polynomial& f) { return f.monomials.empty(); });
+  return std::ranges::all_of(rest, [](const Polynomial& f) { return f.monomials.empty(); });
 }
 
 Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, const Preconditioner& e,
                         const Preconditioner& r, std::span<const Interval> x, NewtonWorkspace& w) {
-  CORANK_CHECK(
-      std::is_permutation(r.equations.begin(), r.equations.end(), motion.sufficient.begin(), motion.sufficient.end()));
-  CORANK_CHECK(std::is_permutation(e.dependent.begin(), e.dependent.end(), r.dependent.begin(), r.dependent.end()));
-  CORANK_CHECK(std::all_of(e.equations.begin(), e.equations.end(), [&](int row) { return row < system.equations(); }));
+  CORANK_CHECK(std::ranges::is_permutation(r.equations, motion.sufficient));
+  CORANK_CHECK(std::ranges::is_permutation(e.dependent, r.dependent));
+  CORANK_CHECK(std::ranges::all_of(e.equations, [&](int row) { return row < system.equations(); }));
   std::vector<Interval> start(x.begin(), x.end());
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     // (1): at most one zero of E in its region, which holds every zero of E in `start`, hence in x.
@@ -93,11 +91,9 @@ Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, 
     // (2): a zero of {R, g} for every value of the same free variables, inside that region.
     const Sheet other = newton_prove(motion.compiled, r, sheet.image, w);
     if (!other.proven) return {};
-    bool inside = true;
-    for (std::size_t j = 0; j < sheet.region.size(); ++j) inside = inside && sheet.region[j].contains(other.image[j]);
-    if (!inside) {  // of {R, g} less may be known than of E: a larger region is to hold it
+    if (!contains(sheet.region, other.image)) {  // of {R, g} less may be known than of E: a larger region is to hold it
       for (const int d : sheet.dependent) {
-        const auto j = static_cast<std::size_t>(d);
+        const std::size_t j = d;
         const Interval& image = other.image[j];  // the next one differs from it by roundings
         const Interval wider = image + Interval(-image.width(), image.width());
         start[j] = Interval::hull(start[j], Interval::hull(sheet.region[j], wider));
@@ -105,7 +101,7 @@ Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, 
       continue;
     }
     for (const int d : sheet.dependent)  // both hold the one zero
-      CORANK_CHECK(sheet.image[static_cast<std::size_t>(d)].intersect(other.image[static_cast<std::size_t>(d)]));
+      CORANK_CHECK(sheet.image[d].intersect(other.image[d]));
     return sheet;
   }
   return {};

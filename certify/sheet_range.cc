@@ -4,6 +4,7 @@
 #include <map>
 
 #include "corank/certify/newton_buffers.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 
@@ -21,12 +22,12 @@ class FaceRange {
         p_(p),
         piece_(piece),
         w_(w),
-        borrowed_(w),
+        borrowed_(w.take()),
         n_(static_cast<std::size_t>(system.variables())),
         r_(static_cast<std::size_t>(p.rank())),
         widths_(widths) {
     std::vector<bool> dependent(n_, false);
-    for (int d : p.dependent) dependent[static_cast<std::size_t>(d)] = true;
+    for (int d : p.dependent) dependent[d] = true;
     for (std::size_t j = 0; j < n_; ++j)
       if (!dependent[j]) free_.push_back(static_cast<int>(j));
   }
@@ -35,7 +36,7 @@ class FaceRange {
     if (free_.empty() || !differentiate()) return;
     std::vector<Interval> along(free_.size());
     for (std::size_t a = 0; a < r_; ++a) {
-      const auto side = static_cast<std::size_t>(p_.dependent[a]);
+      const std::size_t side = p_.dependent[a];
       if (piece_[side].width() <= widths_[side]) continue;
       for (std::size_t f = 0; f < free_.size(); ++f) along[f] = derivatives_[a * free_.size() + f];
       shrink(side, widths_[side], along);
@@ -54,7 +55,7 @@ class FaceRange {
 
   // derivatives_[a·k + f] ∋ ∂(dependent a)/∂(free f) on the sheet over the piece. False: no bound.
   bool differentiate() {
-    buffers_.slope.resize(static_cast<std::size_t>(system_.entries()));
+    buffers_.slope.resize(system_.entries());
     system_.jacobian(piece_, buffers_.slope);
     buffers_.panel.set_matrix(p_.y, p_.rank());
     if (!buffers_.panel.assign_product(system_, p_.equations, buffers_.slope)) return false;
@@ -72,7 +73,7 @@ class FaceRange {
   bool differentiate(std::size_t f) {
     constexpr int kSteps = 12;
     const auto slope = [&](std::size_t a) { return buffers_.panel.at(static_cast<int>(a), free_[f]); };
-    const auto scale = [&](std::size_t a) { return system_.scales()[static_cast<std::size_t>(p_.dependent[a])]; };
+    const auto scale = [&](std::size_t a) { return system_.scales()[p_.dependent[a]]; };
     double largest = 1e-300;
     for (std::size_t a = 0; a < r_; ++a) largest = std::max(largest, slope(a).mag() / scale(a));
     std::vector<double> v(r_), bound(r_);  // bound: upper bounds, by upward rounding, of E·v
@@ -101,11 +102,10 @@ class FaceRange {
     system_.jacobian(row, piece_, buffers_.slope);
     gradient_.assign(n_, Interval());
     for (int e = system_.row_begin(row); e < system_.row_begin(row + 1); ++e)
-      gradient_[static_cast<std::size_t>(system_.column(e))] = buffers_.slope[static_cast<std::size_t>(e)];
+      gradient_[system_.column(e)] = buffers_.slope[e];
     for (std::size_t f = 0; f < free_.size(); ++f) {
-      along[f] = gradient_[static_cast<std::size_t>(free_[f])];
-      for (std::size_t a = 0; a < r_; ++a)
-        along[f] += gradient_[static_cast<std::size_t>(p_.dependent[a])] * derivatives_[a * free_.size() + f];
+      along[f] = gradient_[free_[f]];
+      for (std::size_t a = 0; a < r_; ++a) along[f] += gradient_[p_.dependent[a]] * derivatives_[a * free_.size() + f];
     }
   }
 
@@ -129,9 +129,9 @@ class FaceRange {
   const std::vector<Interval>& over(const Face& face) {
     const auto [at, is_new] = faces_.try_emplace(face);
     if (!is_new) return at->second;
-    std::vector<Interval> x(piece_.begin(), piece_.begin() + static_cast<std::ptrdiff_t>(n_));
+    std::vector<Interval> x(piece_.begin(), piece_.begin() + n_);
     for (std::size_t f = 0; f < free_.size(); ++f) {
-      Interval& side = x[static_cast<std::size_t>(free_[f])];
+      Interval& side = x[free_[f]];
       if (face[f] != 0) side = Interval(face[f] > 0 ? side.hi() : side.lo());
     }
     NewtonStep step = tighten_sheet(system_, p_, x, w_);
@@ -149,7 +149,7 @@ class FaceRange {
   const Preconditioner& p_;
   std::vector<Interval>& piece_;
   NewtonWorkspace& w_;
-  const BorrowedBuffers borrowed_;
+  const NewtonWorkspace::Borrowed borrowed_;
   NewtonBuffers& buffers_ = *borrowed_;
   const std::size_t n_, r_;
   const std::vector<double>& widths_;
@@ -168,9 +168,9 @@ void shrink_to_faces(const CompiledSystem& system, const Sheet& sheet, const Pre
   CORANK_CHECK(widths.size() == piece.size());
   // The hypotheses about the sheet.
   CORANK_CHECK(sheet.proven && sheet.region.size() == static_cast<std::size_t>(system.variables()));
-  CORANK_CHECK(std::is_permutation(p.dependent.begin(), p.dependent.end(), sheet.dependent.begin(), sheet.dependent.end()));
-  CORANK_CHECK(std::is_permutation(p.equations.begin(), p.equations.end(), sheet.equations.begin(), sheet.equations.end()));
-  for (std::size_t j = 0; j < sheet.region.size(); ++j) CORANK_CHECK(sheet.region[j].contains(piece[j]));
+  CORANK_CHECK(std::ranges::is_permutation(p.dependent, sheet.dependent));
+  CORANK_CHECK(std::ranges::is_permutation(p.equations, sheet.equations));
+  CORANK_CHECK(contains(sheet.region, piece));
   FaceRange(system, p, widths, piece, w).shrink();
 }
 

@@ -4,27 +4,17 @@
 #include <utility>
 
 #include "corank/certify/inertia.h"
-#include "corank/certify/preconditioning.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
-#include "corank/core/signs.h"
 
 namespace corank::certify {
 
 SignCellTest::SignCellTest(const System& system, const std::vector<Polynomial>& functions)
     : system_(system), functions_(functions), compiled_(system, functions) {}
 
-std::vector<int> SignCellTest::dependent_of(const std::vector<int>& free) const {
-  std::vector<int> result;
-  for (int j = 0; j < compiled_.variables(); ++j)
-    if (std::find(free.begin(), free.end(), j) == free.end()) result.push_back(j);
-  return result;
-}
-
 Preconditioner SignCellTest::preconditioner(const std::vector<int>& free, const Box& sides) const {
-  std::vector<double> c = midpoint(sides);
-  return midpoint_preconditioner(compiled_, c, dependent_of(free));
+  return midpoint_preconditioner(compiled_, midpoint(sides), all_but(free, compiled_.variables()));
 }
 
 // Shrinks the dependent sides and bounds the function over the sheet's solutions there.
@@ -63,20 +53,19 @@ bool SignCellTest::slopes(const SheetCell& cell, Slopes& result) const {
   CORANK_CHECK(UpwardRounding::active());
   const int m = compiled_.equations(), n = compiled_.variables();
   const auto dense = [&](int row, auto&& set) {
-    std::vector<Interval> entries(static_cast<std::size_t>(compiled_.entries()));
+    std::vector<Interval> entries(compiled_.entries());
     compiled_.jacobian(row, cell.sides, entries);
-    for (int k = compiled_.row_begin(row); k < compiled_.row_begin(row + 1); ++k)
-      set(compiled_.column(k), entries[static_cast<std::size_t>(k)]);
+    for (int k = compiled_.row_begin(row); k < compiled_.row_begin(row + 1); ++k) set(compiled_.column(k), entries[k]);
   };
   IntervalMatrix jacobian(m, n);
   for (int i = 0; i < m; ++i) dense(i, [&](int j, const Interval& e) { jacobian(i, j) += e; });
-  const auto basis = kernel_basis(jacobian, dependent_of(cell.free), compiled_.scales());
+  const auto basis = kernel_basis(jacobian, all_but(cell.free, n), compiled_.scales());
   if (!basis) return false;
   result.clear();
   for (const int g : cell.mixed) {
-    std::vector<Interval>& by_free = result.emplace_back(static_cast<std::size_t>(basis->columns));
+    std::vector<Interval>& by_free = result.emplace_back(basis->columns);
     dense(compiled_.value_row(g), [&](int j, const Interval& e) {
-      for (int f = 0; f < basis->columns; ++f) by_free[static_cast<std::size_t>(f)] += e * (*basis)(j, f);
+      for (int f = 0; f < basis->columns; ++f) by_free[f] += e * (*basis)(j, f);
     });
   }
   return true;
@@ -89,7 +78,7 @@ int SignCellTest::growth(const SheetCell& cell, const Slopes& slopes, const std:
   for (std::size_t k = 0; k < cell.mixed.size(); ++k) {
     Interval along;
     for (std::size_t f = 0; f < direction.size(); ++f) along += Interval(direction[f]) * slopes[k][f];
-    const int growth = sign_of(along) * signs[static_cast<std::size_t>(cell.mixed[k])];
+    const int growth = sign_of(along) * signs[cell.mixed[k]];
     grow = grow && growth > 0;
     shrink = shrink && growth < 0;
   }
@@ -102,12 +91,12 @@ int SignCellTest::connected(const SheetCell& cell, int function, int sign, const
   if (sign_of(value) == sign) return 1;
   if (sign_of(value) == -sign) return -1;
   for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto f = static_cast<std::size_t>(std::find(cell.free.begin(), cell.free.end(), open[i]) - cell.free.begin());
+    const std::size_t f = std::ranges::find(cell.free, open[i]) - cell.free.begin();
     const int growth = sign * sign_of(slope[f]);
     if (growth == 0) continue;
-    Interval& side = sides[static_cast<std::size_t>(open[i])];
+    Interval& side = sides[open[i]];
     side = Interval(growth > 0 ? side.hi() : side.lo());
-    open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+    open.erase(open.begin() + i);
     return connected(cell, function, sign, slope, std::move(sides), std::move(open));
   }
   return 0;
@@ -143,10 +132,9 @@ std::vector<int> SignCellTest::signs(const Box& box) const {
 
 Sheet SignCellTest::graph_over(const Box& point, const std::vector<int>& free, const std::vector<Interval>& over) {
   Box around = point;
-  for (std::size_t k = 0; k < free.size(); ++k) around[static_cast<std::size_t>(free[k])] = over[k];
+  for (std::size_t k = 0; k < free.size(); ++k) around[free[k]] = over[k];
   Sheet sheet = newton_prove(compiled_, preconditioner(free, point), around, workspace_);
-  for (std::size_t j = 0; sheet.proven && j < point.size(); ++j)
-    if (!sheet.region[j].contains(point[j])) sheet.proven = false;
+  sheet.proven = sheet.proven && contains(sheet.region, point);
   return sheet;
 }
 

@@ -89,7 +89,6 @@ class SignCellTest {
  private:
   struct Arc;
 
-  std::vector<int> dependent_of(const std::vector<int>& free) const;
   Preconditioner preconditioner(const std::vector<int>& free, const Box& sides) const;
   Interval range(const SheetCell& cell, int function, Box& sides);
   // Lemma 2, from the whole of X_F to its faces. `open`: the free variables that still have their sides.

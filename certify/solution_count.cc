@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "corank/certify/preconditioning.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
@@ -12,14 +11,8 @@ namespace {
 
 constexpr int kNewtonSteps = 4;  // until an image over one value is small
 
-bool overlap(const std::vector<Interval>& a, const std::vector<Interval>& b) {
-  for (std::size_t j = 0; j < a.size(); ++j)
-    if (!a[j].overlaps(b[j])) return false;
-  return true;
-}
-
 bool is_dependent(const Sheet& sheet, std::size_t j) {
-  return std::find(sheet.dependent.begin(), sheet.dependent.end(), static_cast<int>(j)) != sheet.dependent.end();
+  return std::ranges::find(sheet.dependent, static_cast<int>(j)) != sheet.dependent.end();
 }
 
 // Shrinks the dependent sides of x, which hold the sheet's zeros over its free sides.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "corank/certify/inertia.h"
 #include "corank/certify/polynomial_algebra.h"
@@ -22,7 +23,7 @@ Polynomial variable(int j, int power = 1) {
 Polynomial partial_derivative(const Polynomial& f, int j) {
   Polynomial result;
   for (const Monomial& m : f.monomials) {
-    const auto at = std::find_if(m.factors.begin(), m.factors.end(), [j](const Factor& x) { return x.variable == j; });
+    const auto at = std::ranges::find_if(m.factors, [j](const Factor& x) { return x.variable == j; });
     if (at == m.factors.end()) continue;
     std::vector<Factor> factors = m.factors;
     const auto here = factors.begin() + (at - m.factors.begin());
@@ -43,7 +44,7 @@ bool is_circle(const Polynomial& f, const Angle& angle) {
 }
 
 bool is_value_of(const Polynomial& f, int j) {
-  return mentions(f, j) && std::all_of(f.monomials.begin(), f.monomials.end(), [j](const Monomial& m) {
+  return mentions(f, j) && std::ranges::all_of(f.monomials, [j](const Monomial& m) {
            return m.factors.empty() || (m.factors.size() == 1 && m.factors[0] == Factor{j});
          });
 }
@@ -60,16 +61,15 @@ ExactNumber power_of_two_near(double x) {
 }
 
 bool has_tolerance_or_sine(const Polynomial& f) {
-  return std::any_of(f.monomials.begin(), f.monomials.end(),
-                     [](const Monomial& m) { return m.is_trigonometric() || carries_tolerance(m); });
+  return std::ranges::any_of(f.monomials, [](const Monomial& m) { return m.is_trigonometric() || carries_tolerance(m); });
 }
 
 }  // namespace
 
 Strata::Strata(const System& system, std::vector<End> ends, int height) : system_(system), ends_(std::move(ends)) {
   const auto odd = [](const auto& f) { return has_tolerance_or_sine(f); };
-  if (std::any_of(system_.equations.begin(), system_.equations.end(), odd) ||
-      std::any_of(ends_.begin(), ends_.end(), [](const End& e) { return has_tolerance_or_sine(e.function); }))
+  if (std::ranges::any_of(system_.equations, odd) ||
+      std::ranges::any_of(ends_, [](const End& e) { return has_tolerance_or_sine(e.function); }))
     problem_ = "sines or cosines of lengths, or coefficients with a tolerance";
   else
     find_coordinates();
@@ -84,7 +84,7 @@ void Strata::find_coordinates() {
     of_angles.insert({angle.cosine, angle.sine});
     int circles = 0, values = 0;
     for (int row = 0; row < static_cast<int>(system_.equations.size()); ++row) {
-      const Polynomial& f = system_.equations[static_cast<std::size_t>(row)];
+      const Polynomial& f = system_.equations[row];
       const bool circle = is_circle(f, angle), value = is_value_of(f, angle.cosine) || is_value_of(f, angle.sine);
       if (circle || value) dropped.insert(row);
       circles += circle, values += value;
@@ -95,7 +95,7 @@ void Strata::find_coordinates() {
       problem_ = "an equation in one angle only";
   }
   for (int j = 0; j < system_.size(); ++j) {
-    const Variable& v = system_.variables[static_cast<std::size_t>(j)];
+    const Variable& v = system_.variables[j];
     if (!of_angles.contains(j) && !(v.lower == v.upper)) coordinates_.push_back({j, -1, -1});
   }
   for (int row = 0; row < static_cast<int>(system_.equations.size()); ++row)
@@ -103,13 +103,13 @@ void Strata::find_coordinates() {
 }
 
 double Strata::size(const Coordinate& q) const {
-  return q.length < 0 ? 1.0 : 0.5 * system_.variables[static_cast<std::size_t>(q.length)].domain.width();
+  return q.length < 0 ? 1.0 : 0.5 * system_.variables[q.length].domain.width();
 }
 
 void Strata::make_height(int height) {
   for (const Coordinate& q : coordinates_)
     for (const int j : {q.length, q.cosine, q.sine})
-      if (j >= 0 && !system_.variables[static_cast<std::size_t>(j)].auxiliary)
+      if (j >= 0 && !system_.variables[j].auxiliary)
         height_.monomials.emplace_back(coefficient(height, j) / power_of_two_near(size(q)), std::vector<Factor>{{j}});
 }
 
@@ -123,9 +123,9 @@ std::vector<std::vector<int>> Strata::strata() const {
   std::vector<std::vector<int>> all{{}};
   for (std::size_t from = 0; from < all.size(); ++from)
     for (int j = all[from].empty() ? 0 : all[from].back() + 1; j < static_cast<int>(ends_.size()); ++j) {
-      const End& end = ends_[static_cast<std::size_t>(j)];
-      const bool opposite = std::any_of(all[from].begin(), all[from].end(), [&](int i) {
-        const End& other = ends_[static_cast<std::size_t>(i)];
+      const End& end = ends_[j];
+      const bool opposite = std::ranges::any_of(all[from], [&](int i) {
+        const End& other = ends_[i];
         return end.with != Contact::With::inequality && other.with != Contact::With::inequality && other.index == end.index;
       });
       if (opposite || static_cast<int>(all[from].size()) == dimension()) continue;
@@ -138,13 +138,13 @@ std::vector<std::vector<int>> Strata::strata() const {
 
 void Strata::relax(System& system, const std::vector<int>& ends) const {
   const auto imply = [&](int j) {
-    Variable& v = system.variables[static_cast<std::size_t>(j)];
+    Variable& v = system.variables[j];
     v = Variable(v.name, v.kind, -kOne, kOne);
     v.lower_implied = v.upper_implied = true;
   };
   std::set<int> inequalities;
   for (const int j : ends) {
-    const End& end = ends_[static_cast<std::size_t>(j)];
+    const End& end = ends_[j];
     if (end.with == Contact::With::inequality) {
       inequalities.insert(end.index);
       for (const Coordinate& q : coordinates_)
@@ -152,7 +152,7 @@ void Strata::relax(System& system, const std::vector<int>& ends) const {
           for (const int k : {q.cosine, q.sine}) imply(k);
       continue;
     }
-    Variable& v = system.variables[static_cast<std::size_t>(end.index)];
+    Variable& v = system.variables[end.index];
     const bool lower = end.with == Contact::With::lower_end;
     const ExactNumber room = power_of_two_near(v.domain.width());
     Variable wider(v.name, v.kind, lower ? v.lower - room : v.lower, lower ? v.upper : v.upper + room);
@@ -163,14 +163,14 @@ void Strata::relax(System& system, const std::vector<int>& ends) const {
   }
   std::vector<Polynomial> rest;
   for (int k = 0; k < static_cast<int>(system.inequalities.size()); ++k)
-    if (!inequalities.contains(k)) rest.push_back(std::move(system.inequalities[static_cast<std::size_t>(k)]));
+    if (!inequalities.contains(k)) rest.push_back(std::move(system.inequalities[k]));
   system.inequalities = std::move(rest);
 }
 
 System Strata::edge(int end) const {
   System system = system_;
   relax(system, {end});
-  system.equations.push_back(ends_[static_cast<std::size_t>(end)].function);
+  system.equations.push_back(ends_[end].function);
   return system;
 }
 
@@ -180,9 +180,9 @@ Strata::Stratum Strata::stratum(const std::vector<int>& ends) const {
   System& system = result.system;
   relax(system, ends);
   std::vector<Polynomial> functions;
-  for (const int row : rows_) functions.push_back(system_.equations[static_cast<std::size_t>(row)]);
+  for (const int row : rows_) functions.push_back(system_.equations[row]);
   for (const int j : ends) {
-    functions.push_back(ends_[static_cast<std::size_t>(j)].function);
+    functions.push_back(ends_[j].function);
     system.equations.push_back(functions.back());
   }
   result.rows = static_cast<int>(functions.size());
@@ -211,8 +211,7 @@ Strata::Stratum Strata::stratum(const std::vector<int>& ends) const {
     for (const Coordinate& p : coordinates_) result.hessian.push_back(derivative(slope, p));
   }
   for (int k = 0; k < result.rows; ++k)
-    for (const Coordinate& q : coordinates_)
-      result.jacobian.push_back(derivative(functions[static_cast<std::size_t>(k)], q));
+    for (const Coordinate& q : coordinates_) result.jacobian.push_back(derivative(functions[k], q));
   system.equations.push_back(std::move(norm));
   system.equations.back().source = "norm of the multipliers";
   return result;
@@ -225,8 +224,7 @@ std::vector<Polynomial> values(const Strata& strata, const Strata::Stratum& stra
   const int n = stratum.system.size(), in = static_cast<int>(stratum.ends.size());
   for (int k = n - 1 - in; k < n; ++k) list.push_back(variable(k));  // ν, then μ
   for (int j = 0; j < static_cast<int>(strata.ends().size()); ++j)
-    if (std::find(stratum.ends.begin(), stratum.ends.end(), j) == stratum.ends.end())
-      list.push_back(strata.ends()[static_cast<std::size_t>(j)].function);
+    if (std::ranges::find(stratum.ends, j) == stratum.ends.end()) list.push_back(strata.ends()[j].function);
   list.insert(list.end(), stratum.jacobian.begin(), stratum.jacobian.end());
   list.insert(list.end(), stratum.hessian.begin(), stratum.hessian.end());
   return list;
@@ -242,7 +240,7 @@ StratumTest::StratumTest(const Strata& strata, const Strata::Stratum& stratum)
       compiled_(stratum.system, values(strata, stratum)) {}
 
 bool StratumTest::Kind::counted() const {
-  return std::all_of(inward.begin(), inward.end(), [](int sign) { return sign > 0; });
+  return std::ranges::all_of(inward, [](int sign) { return sign > 0; });
 }
 
 std::optional<StratumTest::Kind> StratumTest::kind(const Box& point) const {

@@ -37,7 +37,7 @@ struct Series {
   }
 };
 
-Interval evaluate(const std::array<Interval, Series::kTerms>& series, const Interval& y) {
+Interval sum_of(const std::array<Interval, Series::kTerms>& series, const Interval& y) {
   Interval sum = series.back();
   for (int j = Series::kTerms - 2; j >= 0; --j) sum = series[j] + y * sum;
   return sum;
@@ -51,7 +51,7 @@ Interval wave_at(double x, int p) {
   CORANK_CHECK(r.mag() < 1);
   const int quarter = (static_cast<int>(k) - p) & 3;  // cos(r + quarter·π/2) = cos r, −sin r, −cos r, sin r
   const Interval y = square(r);
-  Interval value = quarter % 2 == 0 ? evaluate(series.cosine, y) : r * evaluate(series.sine, y);
+  Interval value = quarter % 2 == 0 ? sum_of(series.cosine, y) : r * sum_of(series.sine, y);
   if (quarter == 1 || quarter == 2) value = -value;
   CORANK_CHECK(value.intersect(kRange));
   return value;

@@ -1,10 +1,8 @@
 #include "corank/certify/tube.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "corank/certify/meeting.h"
-#include "corank/certify/preconditioning.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
@@ -42,7 +40,7 @@ std::vector<Interval> inflated(std::vector<Interval> x) {
   return x;
 }
 
-void add_term(Polynomial& f, double coefficient, std::vector<Factor> factors) {
+void add_term(Polynomial& f, double coefficient, Factors factors) {
   if (coefficient != 0) f.monomials.emplace_back(ExactNumber::dyadic(coefficient), std::move(factors));
 }
 
@@ -61,16 +59,16 @@ System TubeProver::extended(const TubeNode& a, const TubeNode& b) const {
   System result = bare_;
   const int n = bare_.size();
   result.variables.emplace_back("t", VariableKind::auxiliary, ExactNumber(0), ExactNumber(1));
-  const auto at = [](int v) { return std::vector<Factor>{{v, 1, Function::identity}}; };
+  const auto at = [](int v) { return Factors{{v}}; };
   for (std::size_t i = 0; i < a.values.size(); ++i) {
     // (1 − t)(T·x − c) + t (T'·x − c') term by term: the coefficients are those doubles.
     Polynomial f;
     for (int j = 0; j < n; ++j) {
-      const auto k = i * static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
+      const std::size_t k = i * n + j;
       add_term(f, a.rows[k], at(j));
       if (a.rows[k] == b.rows[k]) continue;
       const ExactNumber change = ExactNumber::dyadic(b.rows[k]) - ExactNumber::dyadic(a.rows[k]);
-      f.monomials.emplace_back(change, std::vector<Factor>{{j, 1, Function::identity}, {n, 1, Function::identity}});
+      f.monomials.emplace_back(change, Factors{{j}, {n}});
     }
     add_term(f, -a.values[i], {});
     const ExactNumber change = ExactNumber::dyadic(a.values[i]) - ExactNumber::dyadic(b.values[i]);
@@ -84,11 +82,7 @@ Sheet TubeProver::prove(const TubeNode& a, const TubeNode& b, std::vector<Interv
   CORANK_CHECK(UpwardRounding::active());
   const CompiledSystem compiled(extended(a, b));
   if (compiled.equations() != bare_.size()) return {};
-  std::vector<int> dependent;
-  std::vector<double> middle;
-  for (int j = 0; j < bare_.size(); ++j) dependent.push_back(j);
-  for (const Interval& side : x) middle.push_back(side.mid());
-  return newton_prove(compiled, midpoint_preconditioner(compiled, middle, dependent), x, workspace_);
+  return newton_prove(compiled, midpoint_preconditioner(compiled, midpoint(x), all_but({}, bare_.size())), x, workspace_);
 }
 
 std::optional<Box> TubeProver::node(const std::vector<double>& rows, const std::vector<double>& values,

@@ -1,7 +1,6 @@
 // A path on a solution set that is proven from end to end: one lift over each piece, and no singularity about it.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 

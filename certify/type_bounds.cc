@@ -9,8 +9,6 @@
 namespace corank::certify {
 namespace {
 
-std::size_t index(Block block) { return static_cast<std::size_t>(block); }
-
 // Each rank is in lo … hi.
 class Range {
  public:

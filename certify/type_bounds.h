@@ -10,7 +10,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <optional>
 
 #include "corank/certify/kernel_bound.h"

@@ -4,25 +4,14 @@
 #include <map>
 
 #include "corank/certify/compiled_system.h"
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/projection.h"
-#include "corank/certify/trigonometric.h"
 #include "corank/core/check.h"
+#include "corank/core/cover.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
 namespace {
-
-using Box = std::vector<Interval>;
-
-Interval value(const Factor& factor, const Box& x) {
-  const Interval& side = x[static_cast<std::size_t>(factor.variable)];
-  switch (factor.function) {
-    case Function::identity: return power(side, factor.power);
-    case Function::sine: return sine(side);
-    case Function::cosine: return cosine(side);
-  }
-  return Interval::whole();
-}
 
 // α x² + B x for one variable without bounds.
 struct Square {
@@ -47,15 +36,13 @@ class Squares {
     for (const auto& [i, q] : squares_) {
       const Interval center = -*divide(q.linear, scale(2, q.alpha), Interval::whole());
       const double radius = square_root(*divide(Interval(0, s.hi()), q.alpha, Interval::whole()))->hi();
-      if (!x[static_cast<std::size_t>(i)].intersect(center + Interval(-radius, radius))) return false;
+      if (!x[i].intersect(center + Interval(-radius, radius))) return false;
     }
     return true;
   }
 
  private:
-  bool is_free(const Factor& f) const {
-    return f.function == Function::identity && !x_[static_cast<std::size_t>(f.variable)].is_bounded();
-  }
+  bool is_free(const Factor& f) const { return f.function == Function::identity && !x_[f.variable].is_bounded(); }
 
   void find_square(const Monomial& m) {
     if (m.factors.size() != 1 || m.factors[0].power != 2 || !is_free(m.factors[0])) return;
@@ -71,7 +58,7 @@ class Squares {
       if (is_free(f))
         free = &f, ++frees;
       else
-        others *= value(f, x_);
+        others *= evaluate(f, x_);
     }
     if (frees == 0) {
       rest_ += others;
@@ -84,7 +71,7 @@ class Squares {
       return;  // α itself
     } else {
       for (const Factor& f : m.factors)
-        if (is_free(f)) others *= value(f, x_);
+        if (is_free(f)) others *= evaluate(f, x_);
       applies_ = others.lo() >= 0;  // a part of R
     }
   }

@@ -1,7 +1,6 @@
 #include "corank/check/blow_up.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "corank/check/problem.h"
@@ -13,7 +12,7 @@ namespace {
 constexpr std::size_t kMostParts = 200'000;  // of a face
 
 // A polynomial in u and t with coefficients in ℚ[a]/(p), a the point's number: u_j is variable j, t variable n.
-using Blown = std::map<std::vector<Factor>, RationalPolynomial, FactorOrder>;
+using Blown = std::map<Factors, RationalPolynomial>;
 
 class BlowUp {
  public:
@@ -34,7 +33,7 @@ class BlowUp {
   }
 
  private:
-  void add(Blown& to, const std::vector<Factor>& factors, const RationalPolynomial& c) const {
+  void add(Blown& to, const Factors& factors, const RationalPolynomial& c) const {
     RationalPolynomial& sum = to[factors];
     sum = point_.sum(sum, c);
     if (sum.empty()) to.erase(factors);
@@ -43,14 +42,7 @@ class BlowUp {
   Blown product(const Blown& f, const Blown& g) const {
     Blown result;
     for (const auto& [x, c] : f)
-      for (const auto& [y, d] : g) {
-        std::map<int, int> powers;
-        for (const auto* list : {&x, &y})
-          for (const Factor& factor : *list) powers[factor.variable] += factor.power;
-        std::vector<Factor> factors;
-        for (const auto& [variable, power] : powers) factors.push_back({variable, power});
-        add(result, factors, point_.product(c, d));
-      }
+      for (const auto& [y, d] : g) add(result, merged(x, y), point_.product(c, d));
     return result;
   }
 
@@ -110,7 +102,7 @@ class BlowUp {
 
   // Divides by the power of t; false where the row has a constant.
   bool divide(Blown& row) const {
-    const auto power_of_t = [&](const std::vector<Factor>& factors) {
+    const auto power_of_t = [&](const Factors& factors) {
       return !factors.empty() && factors.back().variable == n_ ? factors.back().power : 0;
     };
     int least = row.empty() ? 0 : 1 << 30;
@@ -118,7 +110,7 @@ class BlowUp {
     if (!row.empty() && least == 0) return false;
     Blown result;
     for (const auto& [factors, c] : row) {
-      std::vector<Factor> rest = factors;
+      Factors rest = factors;
       rest.back().power -= least;
       if (rest.back().power == 0) rest.pop_back();
       result[rest] = c;
@@ -138,27 +130,26 @@ class BlowUp {
       for (const auto& [factors, c] : row)
         for (std::size_t k = 0; k < c.size(); ++k) {
           if (c[k].is_zero()) continue;
-          std::vector<Factor> all = factors;
+          Factors all = factors;
           if (k > 0) all.push_back({n_ + 1, static_cast<int>(k)});
           f.monomials.emplace_back(c[k], all);
         }
       if (!f.monomials.empty()) face.equations.push_back(std::move(f));
     }
     const auto names_a = [&](const Polynomial& f) {
-      return std::any_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
-        return std::any_of(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == n_ + 1; });
+      return std::ranges::any_of(f.monomials, [&](const Monomial& m) {
+        return std::ranges::any_of(m.factors, [&](const Factor& x) { return x.variable == n_ + 1; });
       });
     };
     // Rows without a: what defines it says nothing of them.
-    if (std::none_of(face.equations.begin(), face.equations.end(), names_a)) {
+    if (std::ranges::none_of(face.equations, names_a)) {
       face.variables.pop_back();
       return face;
     }
     Polynomial p;
     for (std::size_t k = 0; k < point_.minimal().size(); ++k)
       if (!point_.minimal()[k].is_zero())
-        p.monomials.emplace_back(point_.minimal()[k],
-                                 k == 0 ? std::vector<Factor>() : std::vector<Factor>{{n_ + 1, static_cast<int>(k)}});
+        p.monomials.emplace_back(point_.minimal()[k], k == 0 ? Factors() : Factors{{n_ + 1, static_cast<int>(k)}});
     face.equations.push_back(std::move(p));
     return face;
   }

@@ -1,9 +1,6 @@
 #include "corank/check/checker.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -13,10 +10,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "corank/check/blow_up.h"
 #include "corank/check/distinct.h"
-#include "corank/check/exact.h"
+#include "corank/check/exact_points.h"
 #include "corank/check/kernel.h"
+#include "corank/check/parallel.h"
 #include "corank/check/passage.h"
 #include "corank/check/replay.h"
 #include "corank/check/self_motion.h"
@@ -31,7 +28,7 @@ namespace {
 using Place = Failure::Place;
 
 bool bounded(const Box& box) {
-  return std::all_of(box.begin(), box.end(), [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); });
+  return std::ranges::all_of(box, [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); });
 }
 
 bool same(const CoverBox& a, const CoverBox& b) {
@@ -45,14 +42,9 @@ class Checker {
       : system_(system), cover_(cover), options_(options), blocks_(blocks), stop_(options.ended), arena_(options.threads) {}
 
   Report run() {
-    const NearestRounding nearest;
-    try {
-      check_all();
-    } catch (const Stopped&) {
-      report_.interrupted = true;
-    }
+    report_.interrupted = !finishes([&] { check_all(); }) || report_.interrupted;
     if (report_.interrupted) report_.stage = stage_;
-    std::stable_sort(report_.failures.begin(), report_.failures.end(), [](const Failure& a, const Failure& b) {
+    std::ranges::stable_sort(report_.failures, [](const Failure& a, const Failure& b) {
       return a.place != b.place ? a.place < b.place : a.index < b.index;
     });
     return std::move(report_);
@@ -81,6 +73,7 @@ class Checker {
     }
     check_order();
     check_asked_types();
+    exact_ = std::make_unique<ExactPoints>(system_, cover_, types_.get(), stop_);
     enter("the exact points");
     check_exact_points();
     enter("the boxes");
@@ -129,7 +122,7 @@ class Checker {
       fail(Place::cover, 0, "the requested types are not those of the mechanism's set");
     const bool tolerant = system_.coefficient_tolerance > 0;
     const auto labelled = [](const CoverBox& b) { return b.types != TypeLabels{}; };
-    if ((said.asked == 0 || tolerant) && std::any_of(cover_.boxes.begin(), cover_.boxes.end(), labelled))
+    if ((said.asked == 0 || tolerant) && std::ranges::any_of(cover_.boxes, labelled))
       fail(Place::cover, 0, "boxes have types that were not requested");
   }
 
@@ -139,8 +132,8 @@ class Checker {
         fail(Place::box, i, "it is not in the order of the sides");
     std::vector<unsigned char> used(cover_.regions.size(), 0);
     for (const CoverBox& b : cover_.boxes)
-      if (b.region >= 0) used[static_cast<std::size_t>(b.region)] = 1;
-    if (std::find(used.begin(), used.end(), 0) != used.end()) fail(Place::cover, 0, "a region belongs to no box");
+      if (b.region >= 0) used[b.region] = 1;
+    if (std::ranges::find(used, 0) != used.end()) fail(Place::cover, 0, "a region belongs to no box");
     if (!cover_.regions.empty() && problem_->contradiction()) fail(Place::cover, 0, "the equations contradict each other");
     if (problem_->contradiction()) return;
     const int dimension = std::max(0, problem_->size() - static_cast<int>(problem_->equations().size()));
@@ -151,7 +144,7 @@ class Checker {
 
   bool out_of_order(const Box& a, const Box& b) const {
     for (const int j : problem_->kept()) {
-      const auto v = static_cast<std::size_t>(j);
+      const std::size_t v = j;
       if (a[v].lo() != b[v].lo()) return a[v].lo() > b[v].lo();
       if (a[v].hi() != b[v].hi()) return a[v].hi() > b[v].hi();
     }
@@ -160,26 +153,7 @@ class Checker {
 
   void check_exact_points() {
     for (std::size_t i = 0; i < cover_.exact_points.size(); ++i) {
-      const ExactPoint& point = cover_.exact_points[i];
-      std::string reason;
-      try {
-        exact_.emplace_back(std::make_unique<ExactCheck>(system_, point, stop_));
-        reason = exact_.back()->fault();
-        if (reason.empty()) reason = exact_.back()->holds();
-        if (reason.empty()) reason = exact_.back()->kernel();
-        if (reason.empty() && point.types != TypeLabels{})
-          reason = types_ ? types_->of_point(point.types, *exact_.back())
-                          : "it has types, but the file does not say of which ranks";
-        if (reason.empty() && !(point.sole_within >= 0 && std::isfinite(point.sole_within)))
-          reason = "a radius is not a number";
-        if (reason.empty() && point.sole_within > 0) reason = check_sole(system_, *exact_.back(), point.sole_within);
-      } catch (const std::domain_error& error) {  // numbers of too many bits
-        reason = error.what();
-      } catch (const std::invalid_argument& error) {  // a face whose coefficients or powers are too large
-        reason = error.what();
-      }
-      exact_.resize(i + 1);
-      exact_reasons_.push_back(reason);
+      const std::string& reason = exact_->check_next();
       if (!reason.empty()) fail(Place::exact_point, i, reason);
       ++(reason.empty() ? report_.exact_points.verified : report_.exact_points.failed);
     }
@@ -199,10 +173,8 @@ class Checker {
   // A box whose only solution is known exactly has that point's types; else they are shown all over the box.
   std::string check_types(const CoverBox& box) const {
     if (!types_) return "it has types, but the file does not say of which ranks";
-    if ((box.verdict == Verdict::exact || box.verdict == Verdict::isolated) && box.point >= 0) {
-      const auto p = static_cast<std::size_t>(box.point);
-      if (exact_reasons_[p].empty() && types_->of_point(box.types, *exact_[p]).empty()) return {};
-    }
+    const bool at_point = (box.verdict == Verdict::exact || box.verdict == Verdict::isolated) && box.point >= 0;
+    if (at_point && exact_->has_types(box.point, box.types)) return {};
     return types_->of_box(box.types, box.box);
   }
 
@@ -225,42 +197,25 @@ class Checker {
           return {};
         }
         if (box.region < 0) return "the file has no region for it";
-        const Box& region = cover_.regions[static_cast<std::size_t>(box.region)];
+        const Box& region = cover_.regions[box.region];
         std::string reason = box.motion < 0 ? check_sheet(*problem_, problem_->equations(), box, region)
-                                            : check_on_motion(*motions_[static_cast<std::size_t>(box.motion)], box, region);
+                                            : check_on_motion(*motions_[box.motion], box, region);
         // A solution, or a configuration in the box whose kernel is larger.
-        if (reason.empty() && box.point >= 0) reason = check_point_in(box, box.verdict != Verdict::isolated);
+        if (reason.empty() && box.point >= 0) reason = exact_->fault_in(box, box.verdict != Verdict::isolated);
         return reason;
       }
       case Verdict::exact:
         if (box.motion >= 0) return "it names a self-motion but is not a piece of it";  // and would be missing in the points
-        return check_point_in(box, false);
+        return exact_->fault_in(box, false);
       case Verdict::undecided:
         if (box.region >= 0) return "it names a region";
-        if (box.point >= 0) return check_point_in(box, true);
+        if (box.point >= 0) return exact_->fault_in(box, true);
         checkable = false;
         return {};
       case Verdict::partial:
       case Verdict::pending: checkable = false; return {};
     }
     return {};
-  }
-
-  // The box holds its exact point: a solution, or a configuration that explains it, with a kernel of dimension ≥ 2 (≥ c,
-  // where the system asks for c kernel vectors).
-  std::string check_point_in(const CoverBox& box, bool explained) const {
-    if (box.point < 0) return "the file has no exact point for it";
-    const auto p = static_cast<std::size_t>(box.point);
-    if (!exact_reasons_[p].empty()) return "its exact point is not confirmed: " + exact_reasons_[p];
-    for (int j = 0; j < system_.size(); ++j) {
-      const Variable& v = system_.variables[static_cast<std::size_t>(j)];
-      if (!exact_[p]->knows(j) && !(explained && v.kind == VariableKind::kernel))
-        return "its exact point says nothing of " + v.name;
-    }
-    if (const int least = std::max(2, system_.kernel_vectors); explained && cover_.exact_points[p].corank < least)
-      return "its exact point does not have a kernel of dimension " + std::to_string(least) + " or more";
-    if (std::string reason = exact_[p]->inside(box.box); !reason.empty()) return reason;
-    return box.verdict == Verdict::exact ? exact_[p]->within(cover_.exact_points[p].sole_within, box.box) : "";
   }
 
   // All boxes, or the sample: any so many of them with the same probability.
@@ -281,39 +236,27 @@ class Checker {
     std::mutex adding;
     std::vector<unsigned char> checkable(n, 0), done(n, 0);
     std::atomic<std::uint64_t> count{0};
-    std::atomic<bool> stopped{false};
-    arena_.execute([&] {
-      tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-        if (stopped || stop_.is_set()) {
-          stopped = true;
-          return;
-        }
-        const NearestRounding nearest;
-        bool can = false;
-        try {
-          std::string reason = check_box(cover_.boxes[places[i]], can);
-          if (!reason.empty()) {
-            const std::scoped_lock lock(adding);
-            reasons[i] = std::move(reason);
-          }
-        } catch (const Stopped&) {
-          stopped = true;
-          return;
-        }
-        checkable[i] = can;
-        done[i] = 1;
-        const std::uint64_t so_far = ++count;
-        if (so_far % 32 == 0) progress(so_far, 0);
-      });
+    const bool finished = parallel(arena_, n, [&](std::size_t i) {
+      stop_.poll();
+      bool can = false;
+      std::string reason = check_box(cover_.boxes[places[i]], can);
+      if (!reason.empty()) {
+        const std::scoped_lock lock(adding);
+        reasons[i] = std::move(reason);
+      }
+      checkable[i] = can;
+      done[i] = 1;
+      const std::uint64_t so_far = ++count;
+      if (so_far % 32 == 0) progress(so_far, 0);
     });
     tally_boxes(places, reasons, checkable, done);
-    if (stopped) throw Stopped{};
+    if (!finished) throw Stopped{};
   }
 
   void tally_boxes(const std::vector<std::size_t>& places, const std::map<std::size_t, std::string>& reasons,
                    const std::vector<unsigned char>& checkable, const std::vector<unsigned char>& done) {
     for (std::size_t i = 0; i < places.size(); ++i) {
-      Tally& tally = report_.boxes[static_cast<std::size_t>(cover_.boxes[places[i]].verdict)];
+      Tally& tally = report_.boxes[index(cover_.boxes[places[i]].verdict)];
       if (!done[i] || !checkable[i]) {
         ++tally.unchecked;
       } else if (!reasons.contains(i)) {
@@ -381,30 +324,11 @@ class Checker {
     }
     const auto apart = [&](std::size_t a, std::size_t b) {
       stop_.poll();
-      return told_apart(cover_.points[indices[a]], cover_.points[indices[b]]);
+      return exact_->told_apart(cover_.points[indices[a]], cover_.points[indices[b]]);
     };
     for (const auto& [a, b] : meeting_pairs(boxes, apart, kMostFailures)) {
       fail(Place::point, indices[b], "it may be the same solution as point " + std::to_string(indices[a] + 1));
     }
-  }
-
-  // Different exact points, or one outside the other's box.
-  bool told_apart(const CoverBox& a, const CoverBox& b) const {
-    for (const CoverBox* point : {&a, &b})
-      if (point->verdict == Verdict::exact &&
-          (point->point < 0 || !exact_reasons_[static_cast<std::size_t>(point->point)].empty()))
-        return false;
-    if (a.verdict != Verdict::exact) return b.verdict == Verdict::exact && told_apart(b, a);
-    const ExactCheck& x = *exact_[static_cast<std::size_t>(a.point)];
-    for (int j = 0; j < system_.size(); ++j) {
-      if (!x.knows(j)) continue;
-      if (b.verdict != Verdict::exact) {
-        if (!x.coordinate(j).overlaps(b.box[static_cast<std::size_t>(j)])) return true;
-      } else if (const ExactCheck& y = *exact_[static_cast<std::size_t>(b.point)]; y.knows(j)) {
-        if (!x.coordinate(j).overlaps(y.coordinate(j))) return true;
-      }
-    }
-    return false;
   }
 
   void check_proof() {
@@ -440,8 +364,7 @@ class Checker {
   std::unique_ptr<const TypeCheck> types_;
   std::optional<Problem> problem_;
   std::vector<std::unique_ptr<const MotionCheck>> motions_;
-  std::vector<std::unique_ptr<ExactCheck>> exact_;
-  std::vector<std::string> exact_reasons_;
+  std::unique_ptr<ExactPoints> exact_;
   std::mutex mutex_;
   Report report_;
 };
@@ -454,7 +377,7 @@ bool Report::confirmed() const {
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
     const bool claims = verdict != Verdict::undecided && verdict != Verdict::pending;
-    if (const Tally& t = boxes[static_cast<std::size_t>(v)]; t.failed > 0 || (claims && t.unchecked > 0)) return false;
+    if (const Tally& t = boxes[v]; t.failed > 0 || (claims && t.unchecked > 0)) return false;
   }
   return true;
 }
@@ -462,7 +385,7 @@ bool Report::confirmed() const {
 bool Report::verified() const { return left_out == 0 && confirmed(); }
 
 bool Report::complete() const {
-  const Tally& pending = boxes[static_cast<std::size_t>(Verdict::pending)];
+  const Tally& pending = boxes[index(Verdict::pending)];
   return verified() && proof.present && proof.verified && pending == Tally{};
 }
 

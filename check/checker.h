@@ -9,8 +9,7 @@
 //                                 dimension 2 or more, in the box
 //   partial, pending              not checkable
 // besides, CoverBox::kernel_at_most: the bound of the kernel's dimension, see check/kernel.h; the labels of types, see
-// check/types.h;
-// CoverBox::passage and side: whether the output can pass, see check/passage.h;
+// check/types.h; CoverBox::passage and side: whether the output can pass, see check/passage.h;
 // and that the reduction is legal, isolated boxes are disjoint, points belong to boxes, boxes are sorted and in bounds.
 #pragma once
 
@@ -68,6 +67,13 @@ struct Report {
   bool confirmed() const;
   /// verified(), and that nothing is missing in the search domain is shown, too.
   bool complete() const;
+};
+
+/// Of a check that is about more than boxes.
+struct Findings {
+  std::vector<std::string> failures;
+  bool interrupted = false;
+  std::string stage;  ///< where it ended early
 };
 
 struct Progress {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "corank/core/box.h"
+
 namespace corank::check {
 
 std::vector<std::pair<std::size_t, std::size_t>> meeting_pairs(const std::vector<const Box*>& boxes,
@@ -22,18 +24,13 @@ std::vector<std::pair<std::size_t, std::size_t>> meeting_pairs(const std::vector
   std::vector<std::size_t> order(boxes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (n > 0)
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return (*boxes[a])[along].lo() < (*boxes[b])[along].lo(); });
-  const auto meet = [&](const Box& a, const Box& b) {
-    for (std::size_t j = 0; j < n; ++j)
-      if (!a[j].overlaps(b[j])) return false;
-    return true;
-  };
+    std::ranges::sort(order,
+                      [&](std::size_t a, std::size_t b) { return (*boxes[a])[along].lo() < (*boxes[b])[along].lo(); });
   std::vector<std::size_t> active;  // boxes whose side along the sweep may reach the present one
   for (const std::size_t i : order) {
     std::erase_if(active, [&](std::size_t k) { return n > 0 && (*boxes[k])[along].hi() < (*boxes[i])[along].lo(); });
     for (const std::size_t k : active) {
-      if (!meet(*boxes[i], *boxes[k]) || apart(std::min(i, k), std::max(i, k))) continue;
+      if (!overlap(*boxes[i], *boxes[k]) || apart(std::min(i, k), std::max(i, k))) continue;
       if (pairs.size() == limit) return pairs;
       pairs.emplace_back(std::min(i, k), std::max(i, k));
     }

@@ -1,90 +1,30 @@
 #include "corank/check/enclosure.h"
 
+#include <gmpxx.h>
+
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
 
 #include "corank/core/check.h"
 
 namespace corank::check {
-namespace {
-
-class Rational {
- public:
-  explicit Rational(const ExactNumber& x) {
-    mpq_init(q_);
-    CORANK_CHECK(x.is_rational() && mpq_set_str(q_, x.text().c_str(), 10) == 0);
-    mpq_canonicalize(q_);
-  }
-  ~Rational() { mpq_clear(q_); }
-  Rational(const Rational&) = delete;
-  Rational& operator=(const Rational&) = delete;
-  operator mpq_srcptr() const { return q_; }
-
- private:
-  mpq_t q_;
-};
-
-}  // namespace
-
-Enclosure::Enclosure(double point) {
-  mpfi_init2(x_, kBits);
-  mpfi_set_d(x_, point);
-}
 
 Enclosure::Enclosure(double lo, double hi) {
   CORANK_CHECK(lo <= hi);
-  mpfi_init2(x_, kBits);
   mpfi_interv_d(x_, lo, hi);
 }
 
 Enclosure::Enclosure(const ExactNumber& x) {
   const auto [lower, upper] = x.bounds(kBits + 16);
-  mpfi_init2(x_, kBits);
-  mpfi_interv_q(x_, const_cast<mpq_ptr>(static_cast<mpq_srcptr>(Rational(lower))),
-                const_cast<mpq_ptr>(static_cast<mpq_srcptr>(Rational(upper))));
+  CORANK_CHECK(lower.is_rational() && upper.is_rational());
+  mpq_class from(lower.text(), 10), to(upper.text(), 10);
+  mpfi_interv_q(x_, from.get_mpq_t(), to.get_mpq_t());
 }
-
-Enclosure Enclosure::whole() { return {-kInfinity, kInfinity}; }
 
 Enclosure Enclosure::pi() {
   Enclosure x;
   mpfi_const_pi(x.x_);
   return x;
-}
-
-Enclosure::Enclosure(const Enclosure& x) {
-  mpfi_init2(x_, kBits);
-  mpfi_set(x_, x.x_);
-}
-Enclosure::Enclosure(Enclosure&& x) noexcept {
-  // MPFR's numbers may be moved bit by bit.
-  *x_ = *x.x_;
-  x.x_->left._mpfr_d = nullptr;
-}
-Enclosure& Enclosure::operator=(const Enclosure& x) {
-  if (this == &x) return *this;
-  if (!has_value()) mpfi_init2(x_, kBits);
-  mpfi_set(x_, x.x_);
-  return *this;
-}
-Enclosure& Enclosure::operator=(Enclosure&& x) noexcept {
-  mpfi_swap(x_, x.x_);
-  return *this;
-}
-
-Enclosure& Enclosure::operator+=(const Enclosure& x) {
-  mpfi_add(x_, x_, x.x_);
-  return *this;
-}
-Enclosure& Enclosure::operator-=(const Enclosure& x) {
-  mpfi_sub(x_, x_, x.x_);
-  return *this;
-}
-Enclosure& Enclosure::operator*=(const Enclosure& x) {
-  mpfi_mul(x_, x_, x.x_);
-  return *this;
 }
 
 void Enclosure::add_product(const Enclosure& a, const Enclosure& x) {
@@ -101,31 +41,24 @@ void Enclosure::add_product(double a, const Enclosure& x) {
 
 double Enclosure::mid() const {
   // Halves first: the sum of two large doubles may overflow.
-  const double m = 0.5 * mpfr_get_d(&x_->left, MPFR_RNDN) + 0.5 * mpfr_get_d(&x_->right, MPFR_RNDN);
+  const double m = 0.5 * mpfr_get_d(x_.lower(), MPFR_RNDN) + 0.5 * mpfr_get_d(x_.upper(), MPFR_RNDN);
   return std::isfinite(m) ? m : 0;
-}
-
-double Enclosure::width() const {
-  Enclosure w = upper_end();
-  w -= lower_end();
-  return w.hi();
 }
 
 double Enclosure::mag() const { return std::max(std::fabs(lo()), std::fabs(hi())); }
 double Enclosure::mig() const { return has_zero() ? 0 : std::min(std::fabs(lo()), std::fabs(hi())); }
 
-bool Enclosure::inside(const Enclosure& x) const { return mpfi_is_inside(x_, x.x_) > 0; }
 bool Enclosure::strictly_inside(const Enclosure& x) const {
-  return mpfr_less_p(&x.x_->left, &x_->left) != 0 && mpfr_less_p(&x_->right, &x.x_->right) != 0;
+  return mpfr_less_p(x.x_.lower(), x_.lower()) != 0 && mpfr_less_p(x_.upper(), x.x_.upper()) != 0;
 }
 bool Enclosure::inside(const Interval& x) const {
-  return mpfr_cmp_d(&x_->left, x.lo()) >= 0 && mpfr_cmp_d(&x_->right, x.hi()) <= 0;
+  return mpfr_cmp_d(x_.lower(), x.lo()) >= 0 && mpfr_cmp_d(x_.upper(), x.hi()) <= 0;
 }
 bool Enclosure::overlaps(const Enclosure& x) const {
-  return mpfr_lessequal_p(&x_->left, &x.x_->right) != 0 && mpfr_lessequal_p(&x.x_->left, &x_->right) != 0;
+  return mpfr_lessequal_p(x_.lower(), x.x_.upper()) != 0 && mpfr_lessequal_p(x.x_.lower(), x_.upper()) != 0;
 }
 bool Enclosure::overlaps(const Interval& x) const {
-  return mpfr_cmp_d(&x_->left, x.hi()) <= 0 && mpfr_cmp_d(&x_->right, x.lo()) >= 0;
+  return mpfr_cmp_d(x_.lower(), x.hi()) <= 0 && mpfr_cmp_d(x_.upper(), x.lo()) >= 0;
 }
 
 bool Enclosure::intersect(const Enclosure& x) {
@@ -142,12 +75,12 @@ Enclosure Enclosure::hull(const Enclosure& x, const Enclosure& y) {
 
 Enclosure Enclosure::lower_end() const {
   Enclosure end;
-  mpfi_set_fr(end.x_, &x_->left);
+  mpfi_set_fr(end.x_, x_.lower());
   return end;
 }
 Enclosure Enclosure::upper_end() const {
   Enclosure end;
-  mpfi_set_fr(end.x_, &x_->right);
+  mpfi_set_fr(end.x_, x_.upper());
   return end;
 }
 

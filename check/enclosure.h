@@ -1,16 +1,17 @@
-// The checker's intervals: MPFI at kBits bits, which rounds every operation outward (Revol, Rouillier 2005). Nothing here is
-// shared with core/interval.h but doubles, and no rounding mode of the processor matters.
+// The checker's intervals: MPFI at kBits bits, which rounds every operation outward. Nothing here is shared with
+// core/interval.h but doubles, and no rounding mode of the processor matters. Of core/mpfi.h, which certify/ has too, there
+// is the memory only: it holds two ends, and computes nothing.
 //
 // The empty set is no Enclosure: what may yield it returns false or nothing.
 #pragma once
 
-#include <mpfi.h>
-
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "corank/core/exact_number.h"
 #include "corank/core/interval.h"
+#include "corank/core/mpfi.h"
 #include "corank/core/nearest_rounding.h"
 
 namespace corank::check {
@@ -22,64 +23,46 @@ class Enclosure {
   static constexpr int kBits = 160;
 
   Enclosure() : Enclosure(0.0) {}
-  /*implicit*/ Enclosure(double point);
+  /*implicit*/ Enclosure(double point) { mpfi_set_d(x_, point); }
   Enclosure(double lo, double hi);
   explicit Enclosure(const Interval& x) : Enclosure(x.lo(), x.hi()) {}
   /// Contains the number.
   explicit Enclosure(const ExactNumber& x);
-  static Enclosure whole();
+  static Enclosure whole() { return {-kInfinity, kInfinity}; }
   static Enclosure pi();
 
-  Enclosure(const Enclosure& x);
-  /// x has no value afterwards, only what destroys it or assigns to it may follow.
-  Enclosure(Enclosure&& x) noexcept;
-  Enclosure& operator=(const Enclosure& x);
-  Enclosure& operator=(Enclosure&& x) noexcept;
-  ~Enclosure() {
-    if (has_value()) mpfi_clear(x_);
-  }
-
-  Enclosure& operator+=(const Enclosure& x);
-  Enclosure& operator-=(const Enclosure& x);
-  Enclosure& operator*=(const Enclosure& x);
-  friend Enclosure operator+(Enclosure x, const Enclosure& y) {
-    x += y;
-    return x;
-  }
-  friend Enclosure operator-(Enclosure x, const Enclosure& y) {
-    x -= y;
-    return x;
-  }
-  friend Enclosure operator*(Enclosure x, const Enclosure& y) {
-    x *= y;
-    return x;
-  }
+  Enclosure& operator+=(const Enclosure& x) { return mpfi_add(x_, x_, x.x_), *this; }
+  Enclosure& operator-=(const Enclosure& x) { return mpfi_sub(x_, x_, x.x_), *this; }
+  Enclosure& operator*=(const Enclosure& x) { return mpfi_mul(x_, x_, x.x_), *this; }
+  friend Enclosure operator+(Enclosure x, const Enclosure& y) { return std::move(x += y); }
+  friend Enclosure operator-(Enclosure x, const Enclosure& y) { return std::move(x -= y); }
+  friend Enclosure operator*(Enclosure x, const Enclosure& y) { return std::move(x *= y); }
   friend Enclosure operator-(const Enclosure& x) { return Enclosure(0.0) - x; }
   /// this += a·x, this += a·x with a point a.
   void add_product(const Enclosure& a, const Enclosure& x);
   void add_product(double a, const Enclosure& x);
 
-  double lo() const { return mpfr_get_d(&x_->left, MPFR_RNDD); }   ///< at most the lower end
-  double hi() const { return mpfr_get_d(&x_->right, MPFR_RNDU); }  ///< at least the upper end
-  double mid() const;                                              ///< a double near the middle
-  double width() const;                                            ///< at least the upper end − the lower end
-  double mag() const;                                              ///< at least max |x|
-  double mig() const;                                              ///< at most min |x|
+  double lo() const { return mpfr_get_d(x_.lower(), MPFR_RNDD); }    ///< at most the lower end
+  double hi() const { return mpfr_get_d(x_.upper(), MPFR_RNDU); }    ///< at least the upper end
+  double mid() const;                                                ///< a double near the middle
+  double width() const { return (upper_end() - lower_end()).hi(); }  ///< at least the upper end − the lower end
+  double mag() const;                                                ///< at least max |x|
+  double mig() const;                                                ///< at most min |x|
   bool is_bounded() const { return mpfi_bounded_p(x_) != 0; }
   bool is_zero() const { return mpfi_is_zero(x_) > 0; }  ///< [0, 0]
   bool has_zero() const { return mpfi_has_zero(x_) > 0; }
-  bool is_nonnegative() const { return mpfr_sgn(&x_->left) >= 0; }
-  bool is_positive() const { return mpfr_sgn(&x_->left) > 0; }
-  bool is_negative() const { return mpfr_sgn(&x_->right) < 0; }
-  bool may_be_nonnegative() const { return mpfr_sgn(&x_->right) >= 0; }
-  bool inside(const Enclosure& x) const;           ///< a subset of x
-  bool strictly_inside(const Enclosure& x) const;  ///< of the interior of x
+  bool is_nonnegative() const { return mpfr_sgn(x_.lower()) >= 0; }
+  bool is_positive() const { return mpfr_sgn(x_.lower()) > 0; }
+  bool is_negative() const { return mpfr_sgn(x_.upper()) < 0; }
+  bool may_be_nonnegative() const { return mpfr_sgn(x_.upper()) >= 0; }
+  bool inside(const Enclosure& x) const { return mpfi_is_inside(x_, x.x_) > 0; }  ///< a subset of x
+  bool strictly_inside(const Enclosure& x) const;                                 ///< of the interior of x
   bool inside(const Interval& x) const;
   bool overlaps(const Enclosure& x) const;
   bool overlaps(const Interval& x) const;
   /// Is every number of this ≤ (<) every one of x?
-  bool at_most(const Enclosure& x) const { return mpfr_lessequal_p(&x_->right, &x.x_->left) != 0; }
-  bool below(const Enclosure& x) const { return mpfr_less_p(&x_->right, &x.x_->left) != 0; }
+  bool at_most(const Enclosure& x) const { return mpfr_lessequal_p(x_.upper(), x.x_.lower()) != 0; }
+  bool below(const Enclosure& x) const { return mpfr_less_p(x_.upper(), x.x_.lower()) != 0; }
 
   /// this := this ∩ x; false, and unchanged, where that is empty.
   bool intersect(const Enclosure& x);
@@ -97,17 +80,8 @@ class Enclosure {
   friend Enclosure arc_cosine(const Enclosure& x);                    ///< x within [−1, 1]
 
  private:
-  bool has_value() const { return x_->left._mpfr_d != nullptr; }  // not moved from
-
-  mpfi_t x_;
+  Mpfi x_{kBits};
 };
-
-Enclosure power(const Enclosure& x, int p);
-Enclosure sine(const Enclosure& x);
-Enclosure cosine(const Enclosure& x);
-Enclosure quotient(const Enclosure& x, const Enclosure& y);
-Enclosure square_root(const Enclosure& x);
-Enclosure arc_cosine(const Enclosure& x);
 
 /// hull{x ∈ within : d·x = n for some n ∈ num, d ∈ den}; nothing where that is empty.
 std::optional<Enclosure> divide(const Enclosure& num, const Enclosure& den, const Enclosure& within);

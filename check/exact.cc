@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "corank/check/kernel.h"
+
 namespace corank::check {
 namespace {
 
@@ -11,12 +13,20 @@ void strip(RationalPolynomial& f) {
   while (!f.empty() && f.back().is_zero()) f.pop_back();
 }
 
-bool is_rational(const RationalPolynomial& f) {
-  return std::all_of(f.begin(), f.end(), [](const ExactNumber& c) { return c.is_rational(); });
+// sum := sum ± f
+void add(RationalPolynomial& sum, const RationalPolynomial& f, int sign = 1) {
+  sum.resize(std::max(sum.size(), f.size()));
+  for (std::size_t k = 0; k < f.size(); ++k) sum[k] = sign > 0 ? sum[k] + f[k] : sum[k] - f[k];
+  strip(sum);
 }
 
-ExactNumber at(const RationalPolynomial& f, const ExactNumber& x) {
-  ExactNumber sum;
+bool is_rational(const RationalPolynomial& f) {
+  return std::ranges::all_of(f, [](const ExactNumber& c) { return c.is_rational(); });
+}
+
+template <class Number>
+Number at(const std::vector<Number>& f, const Number& x) {
+  Number sum;
   for (std::size_t k = f.size(); k-- > 0;) sum = sum * x + f[k];
   return sum;
 }
@@ -59,12 +69,6 @@ Enclosures enclosures(const RationalPolynomial& f) {
   Enclosures result;
   for (const ExactNumber& c : f) result.emplace_back(c);
   return result;
-}
-
-Enclosure at(const Enclosures& f, const Enclosure& x) {
-  Enclosure sum;
-  for (std::size_t k = f.size(); k-- > 0;) sum = sum * x + f[k];
-  return sum;
 }
 
 // Nothing where the enclosure does not tell it.
@@ -184,28 +188,16 @@ RationalPolynomial ExactCheck::product(const RationalPolynomial& f, const Ration
   return reduced(std::move(result));
 }
 
-RationalPolynomial ExactCheck::sum(const RationalPolynomial& f, const RationalPolynomial& g) const {
-  RationalPolynomial result(std::max(f.size(), g.size()));
-  for (std::size_t k = 0; k < result.size(); ++k) {
-    if (k < f.size()) result[k] = result[k] + f[k];
-    if (k < g.size()) result[k] = result[k] + g[k];
-  }
-  return reduced(std::move(result));
+RationalPolynomial ExactCheck::sum(RationalPolynomial f, const RationalPolynomial& g) const {
+  add(f, g);
+  return reduced(std::move(f));
 }
 
-Enclosure ExactCheck::enclose(const RationalPolynomial& f) const {
-  Enclosure sum;
-  for (std::size_t k = f.size(); k-- > 0;) sum = sum * t_ + Enclosure(f[k]);
-  return sum;
-}
-
-bool ExactCheck::is_kernel(int variable) const {
-  return system_.variables[static_cast<std::size_t>(variable)].kind == VariableKind::kernel;
-}
+Enclosure ExactCheck::enclose(const RationalPolynomial& f) const { return at(enclosures(f), t_); }
 
 bool ExactCheck::is_known(const Polynomial& f) const {
-  return std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
-    return std::all_of(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return knows(x.variable); });
+  return std::ranges::all_of(f.monomials, [&](const Monomial& m) {
+    return std::ranges::all_of(m.factors, [&](const Factor& x) { return knows(x.variable); });
   });
 }
 
@@ -215,7 +207,7 @@ std::optional<RationalPolynomial> ExactCheck::value(const Monomial& m) const {
   strip(result);
   for (const Factor& x : m.factors) {
     if (x.function != Function::identity || !knows(x.variable)) return std::nullopt;
-    for (int k = 0; k < x.power; ++k) result = product(result, reduced_[static_cast<std::size_t>(x.variable)]);
+    for (int k = 0; k < x.power; ++k) result = product(result, reduced_[x.variable]);
   }
   return result;
 }
@@ -225,10 +217,8 @@ std::optional<RationalPolynomial> ExactCheck::value(const Polynomial& f) const {
   for (const Monomial& m : f.monomials) {
     const auto term = value(m);
     if (!term) return std::nullopt;
-    sum.resize(std::max(sum.size(), term->size()));
-    for (std::size_t k = 0; k < term->size(); ++k) sum[k] = sum[k] + (*term)[k];
+    add(sum, *term);
   }
-  strip(sum);
   return sum;
 }
 
@@ -259,18 +249,14 @@ std::string ExactCheck::holds() const {
   }
   for (int j = 0; j < system_.size(); ++j) {
     if (!knows(j)) continue;
-    const Variable& v = system_.variables[static_cast<std::size_t>(j)];
+    const Variable& v = system_.variables[j];
     const auto not_less = [&](const ExactNumber& end, int sign) {  // sign·(x − end) ≥ 0
       if (!end.is_rational()) {
         const Enclosure bound(end);
         return sign > 0 ? bound.at_most(coordinate(j)) : coordinate(j).at_most(bound);
       }
-      RationalPolynomial difference = reduced_[static_cast<std::size_t>(j)];
-      difference.resize(std::max<std::size_t>(difference.size(), 1));
-      difference[0] = difference[0] - end;
-      if (sign < 0)
-        for (ExactNumber& c : difference) c = -c;
-      strip(difference);
+      RationalPolynomial difference = sign > 0 ? reduced_[j] : RationalPolynomial{end};
+      add(difference, sign > 0 ? RationalPolynomial{end} : reduced_[j], -1);
       return is_nonnegative(difference);
     };
     if (!not_less(v.lower, 1) || !not_less(v.upper, -1)) return v.name + " is not shown to lie in its domain";
@@ -279,40 +265,14 @@ std::string ExactCheck::holds() const {
 }
 
 std::string ExactCheck::kernel() const {
-  std::vector<int> column(system_.variables.size(), -1);
-  int unknowns = 0;
-  for (int j = 0; j < system_.size(); ++j) unknowns += is_kernel(j);
-  unknowns /= system_.kernel_vectors;  // those of one vector
-  for (int j = 0, k = 0; j < system_.size() && k < unknowns; ++j)
-    if (is_kernel(j)) column[static_cast<std::size_t>(j)] = k++;
-  if (unknowns == 0) return point_.corank == -1 ? "" : "the system has no kernel vector";
+  const PolynomialMatrix matrix = kernel_matrix(system_);
+  if (matrix.columns == 0) return point_.corank == -1 ? "" : "the system has no kernel vector";
   if (point_.corank == -1) return {};  // nothing is said
-  std::vector<std::vector<RationalPolynomial>> rows;
-  for (const Polynomial& f : system_.equations) {
-    std::vector<RationalPolynomial> row(static_cast<std::size_t>(unknowns));
-    bool linear = !f.monomials.empty();
-    for (const Monomial& m : f.monomials) {
-      const auto of_kernel = [&](const Factor& x) { return is_kernel(x.variable); };
-      linear = linear && std::count_if(m.factors.begin(), m.factors.end(), of_kernel) == 1;
-      if (!linear) break;
-      const auto unknown = std::find_if(m.factors.begin(), m.factors.end(), of_kernel);
-      linear = unknown->power == 1 && unknown->function == Function::identity &&
-               column[static_cast<std::size_t>(unknown->variable)] >= 0;
-      if (!linear) break;
-      Monomial rest = m;
-      rest.factors.erase(rest.factors.begin() + (unknown - m.factors.begin()));
-      const auto entry = value(rest);
-      if (!entry) return "an entry of the kernel's matrix is not known there";
-      auto& sum = row[static_cast<std::size_t>(column[static_cast<std::size_t>(unknown->variable)])];
-      sum.resize(std::max(sum.size(), entry->size()));
-      for (std::size_t k = 0; k < entry->size(); ++k) sum[k] = sum[k] + (*entry)[k];
-      strip(sum);
-    }
-    if (linear) rows.push_back(std::move(row));
-  }
-  const std::optional<int> known = rank(std::move(rows), static_cast<std::size_t>(unknowns));
+  auto entries = values(matrix);
+  if (!entries) return "an entry of the kernel's matrix is not known there";
+  const std::optional<int> known = rank(std::move(*entries), matrix.columns);
   if (!known) return "the rank of the kernel's matrix is not shown";
-  const int dimension = unknowns - *known;
+  const int dimension = matrix.columns - *known;
   if (dimension != point_.corank)
     return "the kernel's dimension is " + std::to_string(dimension) + ", not " + std::to_string(point_.corank);
   return {};
@@ -338,18 +298,14 @@ std::optional<int> ExactCheck::rank(Rows rows, std::size_t columns) const {
       break;
     }
     const auto by = rows[pivot_row];
-    rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(pivot_row));
+    rows.erase(rows.begin() + pivot_row);
     used[pivot] = 1;
     ++rank;
     for (auto& row : rows) {
       const RationalPolynomial factor = row[pivot];
       for (std::size_t j = 0; j < row.size(); ++j) {
-        RationalPolynomial a = product(row[j], by[pivot]);
-        const RationalPolynomial b = product(factor, by[j]);
-        a.resize(std::max(a.size(), b.size()));
-        for (std::size_t k = 0; k < b.size(); ++k) a[k] = a[k] - b[k];
-        strip(a);
-        row[j] = std::move(a);
+        row[j] = product(row[j], by[pivot]);
+        add(row[j], product(factor, by[j]), -1);
       }
     }
   }
@@ -357,20 +313,24 @@ std::optional<int> ExactCheck::rank(Rows rows, std::size_t columns) const {
 }
 
 std::optional<int> ExactCheck::rank(const PolynomialMatrix& matrix) const {
-  Rows rows;
-  for (std::size_t k = 0; k < matrix.entries.size(); ++k) {
-    if (k % static_cast<std::size_t>(matrix.columns) == 0) rows.emplace_back();
+  auto entries = values(matrix);
+  return entries ? rank(std::move(*entries), matrix.columns) : std::nullopt;
+}
+
+std::optional<ExactCheck::Rows> ExactCheck::values(const PolynomialMatrix& matrix) const {
+  Rows rows(matrix.rows);
+  for (int k = 0; k < matrix.rows * matrix.columns; ++k) {
     auto entry = value(matrix.entries[k]);
     if (!entry) return std::nullopt;
-    rows.back().push_back(std::move(*entry));
+    rows[k / matrix.columns].push_back(std::move(*entry));
   }
-  return rank(std::move(rows), static_cast<std::size_t>(matrix.columns));
+  return rows;
 }
 
 std::string ExactCheck::inside(const Box& box) const {
   for (int j = 0; j < system_.size(); ++j) {
-    if (!knows(j) || coordinate(j).inside(box[static_cast<std::size_t>(j)])) continue;
-    return system_.variables[static_cast<std::size_t>(j)].name + " of its exact point lies outside it";
+    if (!knows(j) || coordinate(j).inside(box[j])) continue;
+    return system_.variables[j].name + " of its exact point lies outside it";
   }
   return {};
 }
@@ -379,7 +339,7 @@ std::string ExactCheck::within(double radius, const Box& box) const {
   for (int j = 0; j < system_.size(); ++j) {
     if (!knows(j)) continue;
     // Every x − p_j, rounded outward: the ends of the ball itself would be rounded to its favour.
-    const Enclosure offset = Enclosure(box[static_cast<std::size_t>(j)]) - coordinate(j);
+    const Enclosure offset = Enclosure(box[j]) - coordinate(j);
     if (!offset.inside(Enclosure(-radius, radius)))
       return "it reaches beyond the distance at which its exact point is shown to be the only solution";
   }

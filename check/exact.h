@@ -33,18 +33,18 @@ class ExactCheck {
   std::string inside(const Box& box) const;
   /// No point of the box is farther from the point, in any known variable, than the radius.
   std::string within(double radius, const Box& box) const;
-  bool knows(int variable) const { return !point_.coordinates[static_cast<std::size_t>(variable)].empty(); }
+  bool knows(int variable) const { return !point_.coordinates[variable].empty(); }
   /// Encloses a known coordinate.
-  const Enclosure& coordinate(int variable) const { return coordinates_[static_cast<std::size_t>(variable)]; }
+  const Enclosure& coordinate(int variable) const { return coordinates_[variable]; }
 
   // Arithmetic modulo p: no coefficients stand for 0.
-  const RationalPolynomial& polynomial(int variable) const { return reduced_[static_cast<std::size_t>(variable)]; }
+  const RationalPolynomial& polynomial(int variable) const { return reduced_[variable]; }
   const RationalPolynomial& minimal() const { return p_; }  ///< p, monic
   const StopFlag& stop() const { return stop_; }
   const ExactNumber& lower() const { return lower_; }  ///< bounds of t, narrow
   const ExactNumber& upper() const { return upper_; }
   RationalPolynomial product(const RationalPolynomial& f, const RationalPolynomial& g) const;
-  RationalPolynomial sum(const RationalPolynomial& f, const RationalPolynomial& g) const;
+  RationalPolynomial sum(RationalPolynomial f, const RationalPolynomial& g) const;
   Enclosure enclose(const RationalPolynomial& f) const;
 
  private:
@@ -52,12 +52,13 @@ class ExactCheck {
   RationalPolynomial reduced(RationalPolynomial f) const;
   using Rows = std::vector<std::vector<RationalPolynomial>>;
   std::optional<int> rank(Rows rows, std::size_t columns) const;
+  // Nothing where an entry is not known or not rational.
+  std::optional<Rows> values(const PolynomialMatrix& matrix) const;
   // c·Π factors but those of kind kernel; nothing where a value is not known or not rational.
   std::optional<RationalPolynomial> value(const Monomial& m) const;
   std::optional<RationalPolynomial> value(const Polynomial& f) const;
   bool is_nonnegative(const RationalPolynomial& f) const { return f.empty() || enclose(f).is_positive(); }
   bool is_known(const Polynomial& f) const;
-  bool is_kernel(int variable) const;
 
   const System& system_;
   const ExactPoint& point_;

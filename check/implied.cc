@@ -7,19 +7,13 @@ namespace {
 
 ExactNumber magnitude(const ExactNumber& x) { return x.sign() == -1 ? -x : x; }
 bool not_less(const ExactNumber& a, const ExactNumber& b) { return (a - b).sign().value_or(-1) >= 0; }
-bool is_function(const std::vector<Factor>& factors) {
-  return factors.size() == 1 && factors[0].function != Function::identity;
-}
-bool is_variable(const std::vector<Factor>& factors) {
-  return factors.size() == 1 && factors[0].function == Function::identity && factors[0].power == 1;
-}
 
 }  // namespace
 
 Implied::Implied(const System& system, const std::vector<Terms>& equations) {
   for (const Terms& f : equations) {
-    const bool rational = f.is_exact() && std::all_of(f.list().begin(), f.list().end(),
-                                                      [](const auto& term) { return term.second.exact.is_rational(); });
+    const bool rational =
+        f.is_exact() && std::ranges::all_of(f.list(), [](const auto& term) { return term.second.exact.is_rational(); });
     if (!rational) continue;
     equations_.push_back(f);
     Squares squares;
@@ -49,13 +43,13 @@ void Implied::index(std::size_t variables) {
   for (std::size_t i = 0; i < equations_.size(); ++i) {
     for (const auto& [factors, c] : equations_[i].list()) {
       for (const Factor& factor : factors) {
-        auto& list = equations_of_[static_cast<std::size_t>(factor.variable)];
+        auto& list = equations_of_[factor.variable];
         if (list.empty() || list.back() != i) list.push_back(i);
       }
     }
   }
   for (std::size_t i = 0; i < squares_.size(); ++i)
-    for (const auto& [y, a] : squares_[i].of) squares_of_[static_cast<std::size_t>(y)].push_back(i);
+    for (const auto& [y, a] : squares_[i].of) squares_of_[y].push_back(i);
 }
 
 // Looks at each variable, and again where another one of an equation of its has a new bound.
@@ -65,12 +59,12 @@ void Implied::spread() {
   while (!open.empty()) {
     const int y = open.back();
     open.pop_back();
-    Domain& domain = domains_[static_cast<std::size_t>(y)];
+    Domain& domain = domains_[y];
     for (const int side : {0, 1}) {
       if (domain.implied[side] || !domain.rational[side]) continue;
       domain.implied[side] = holds(y, domain.end[side], side == 1 ? 1 : -1);
       if (!domain.implied[side]) continue;
-      for (const std::size_t i : equations_of_[static_cast<std::size_t>(y)])
+      for (const std::size_t i : equations_of_[y])
         for (const auto& [factors, c] : equations_[i].list())
           if (is_variable(factors) && factors[0].variable != y) open.push_back(factors[0].variable);
     }
@@ -82,9 +76,8 @@ void Implied::add_shorter_sums() {
   std::vector<Terms> linear;
   for (const Terms& f : equations_) {
     const auto& list = f.list();
-    if (std::all_of(list.begin(), list.end(), [](const auto& term) {
-          return term.first.empty() || is_function(term.first) || is_variable(term.first);
-        }))
+    if (std::ranges::all_of(
+            list, [](const auto& term) { return term.first.empty() || is_function(term.first) || is_variable(term.first); }))
       linear.push_back(f);
   }
   if (linear.size() > kMostRows) return;
@@ -103,21 +96,20 @@ void Implied::add_shorter_sums() {
 
 bool Implied::holds(int y, const ExactNumber& end, int sign) const {
   if (!end.is_rational()) return false;
-  const Domain& domain = domains_[static_cast<std::size_t>(y)];
+  const Domain& domain = domains_[y];
   const int side = sign > 0 ? 1 : 0;
   if (domain.implied[side] && (sign > 0 ? not_less(end, domain.end[1]) : not_less(domain.end[0], end))) return true;
   const ExactNumber h = sign > 0 ? end : -end;
   if (h.sign() != -1 && by_squares(y, h)) return true;
-  const auto& list = equations_of_[static_cast<std::size_t>(y)];
-  return std::any_of(list.begin(), list.end(), [&](std::size_t i) {
+  const auto& list = equations_of_[y];
+  return std::ranges::any_of(list, [&](std::size_t i) {
     return (h.sign() != -1 && by_products(equations_[i], y, h)) || by_sum(equations_[i], y, end, sign);
   });
 }
 
 bool Implied::by_squares(int y, const ExactNumber& h) const {
-  const auto& list = squares_of_[static_cast<std::size_t>(y)];
-  return std::any_of(list.begin(), list.end(),
-                     [&](std::size_t i) { return not_less(squares_[i].of.at(y) * h * h, squares_[i].bound); });
+  const auto& list = squares_of_[y];
+  return std::ranges::any_of(list, [&](std::size_t i) { return not_less(squares_[i].of.at(y) * h * h, squares_[i].bound); });
 }
 
 // The largest (sign 1) or least value of a term, where it is known.
@@ -125,7 +117,7 @@ std::optional<ExactNumber> Implied::extreme(const Factors& factors, const ExactN
   if (factors.empty()) return c;
   if (is_function(factors)) return sign > 0 ? magnitude(c) : -magnitude(c);
   if (!is_variable(factors)) return std::nullopt;
-  const Domain& domain = domains_[static_cast<std::size_t>(factors[0].variable)];
+  const Domain& domain = domains_[factors[0].variable];
   const int side = sign * c.sign().value_or(0) > 0 ? 1 : 0;
   if (!domain.implied[side]) return std::nullopt;
   return c * domain.end[side];
@@ -167,8 +159,8 @@ bool Implied::by_products(const Terms& f, int y, const ExactNumber& h) const {
   if (a.is_zero() || products.empty()) return false;
   const ExactNumber room = a * h - constant;
   if (room.sign() == -1) return false;
-  for (const std::size_t u : squares_of_[static_cast<std::size_t>(products[0].first)]) {
-    for (const std::size_t v : squares_of_[static_cast<std::size_t>(products[0].second)]) {
+  for (const std::size_t u : squares_of_[products[0].first]) {
+    for (const std::size_t v : squares_of_[products[0].second]) {
       const auto bound = product_bound(products, squares_[u], squares_[v]);
       if (bound && not_less(room * room, largest * largest * *bound)) return true;
     }
@@ -182,7 +174,7 @@ std::optional<ExactNumber> Implied::product_bound(const std::vector<std::pair<in
   std::optional<ExactNumber> least_u, least_v;
   const auto take = [](int x, const Squares& squares, std::vector<int>& taken, std::optional<ExactNumber>& least) {
     const auto c = squares.of.find(x);
-    if (c == squares.of.end() || std::find(taken.begin(), taken.end(), x) != taken.end()) return false;
+    if (c == squares.of.end() || std::ranges::find(taken, x) != taken.end()) return false;
     taken.push_back(x);
     if (!least || not_less(*least, c->second)) least = c->second;
     return true;

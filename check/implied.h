@@ -31,7 +31,6 @@ class Implied {
     ExactNumber end[2];  // lower, upper
     bool rational[2] = {}, implied[2] = {};
   };
-  using Factors = std::vector<Factor>;
 
   void add_shorter_sums();
   void index(std::size_t variables);

@@ -14,11 +14,15 @@
 
 namespace corank::check {
 
+/// M(q), over the variables of the system: no columns where it has no kernel.
+PolynomialMatrix kernel_matrix(const System& system);
+
 class KernelCheck {
  public:
-  explicit KernelCheck(const System& system, const StopFlag& stop = {});
+  explicit KernelCheck(const System& system, const StopFlag& stop = {})
+      : KernelCheck(system, kernel_matrix(system), stop, system.coefficient_tolerance) {}
   /// Of any other matrix, over the variables of the system.
-  KernelCheck(const System& system, const PolynomialMatrix& matrix, const StopFlag& stop);
+  KernelCheck(const System& system, const PolynomialMatrix& matrix, const StopFlag& stop, double tolerance = 0);
 
   /// Number of kernel variables of one vector; columns of the other matrix.
   int columns() const { return columns_; }
@@ -27,11 +31,10 @@ class KernelCheck {
 
  private:
   bool has_rank(std::size_t s, const Sides& x) const;
-  void settle(const System& system);
 
   StopFlag stop_;
   int columns_ = 0;
-  std::vector<std::vector<Row>> rows_;
+  RowMatrix rows_;
   std::vector<int> arguments_;   // the variables that M depends on
   std::vector<double> lengths_;  // of the variables' domains
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace corank::check {
+
 std::vector<double> inverse(std::vector<double> a, std::size_t r) {
   std::vector<double> b(r * r, 0.0);
   for (std::size_t i = 0; i < r; ++i) b[i * r + i] = 1;
@@ -24,8 +25,29 @@ std::vector<double> inverse(std::vector<double> a, std::size_t r) {
       for (std::size_t j = 0; j < r; ++j) a[i * r + j] -= factor * a[k * r + j], b[i * r + j] -= factor * b[k * r + j];
     }
   }
-  const bool finite = std::all_of(b.begin(), b.end(), [](double x) { return std::isfinite(x); });
+  const bool finite = std::ranges::all_of(b, [](double x) { return std::isfinite(x); });
   return finite ? b : std::vector<double>();
+}
+
+Pivots pivots(std::vector<std::vector<double>> t, std::size_t most) {
+  Pivots result;
+  std::vector<bool> used(t.size(), false), taken(t.empty() ? 0 : t[0].size(), false);
+  while (result.rows.size() < most) {
+    std::size_t row = 0, column = 0;
+    double best = 0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      for (std::size_t j = 0; j < taken.size(); ++j)
+        if (!used[i] && !taken[j] && std::fabs(t[i][j]) > best) best = std::fabs(t[i][j]), row = i, column = j;
+    if (best == 0) break;
+    used[row] = taken[column] = true;
+    result.rows.push_back(row);
+    result.columns.push_back(column);
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double factor = t[i][column] / t[row][column];
+      for (std::size_t j = 0; j < taken.size() && !used[i]; ++j) t[i][j] -= factor * t[row][j];
+    }
+  }
+  return result;
 }
 
 bool is_contraction(const std::vector<double>& e, std::size_t r) {
@@ -39,7 +61,7 @@ bool is_contraction(const std::vector<double>& e, std::size_t r) {
       if (!std::isfinite(next[a])) return false;
     }
     power = next;
-    if (std::all_of(power.begin(), power.end(), [](double x) { return x < 1; })) break;
+    if (std::ranges::all_of(power, [](double x) { return x < 1; })) break;
     for (std::size_t a = 0; a < r; ++a) radius[a] += power[a];
   }
   for (std::size_t a = 0; a < r; ++a) {
@@ -68,7 +90,7 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, Center aro
   const std::size_t r = equations_.size();
   if (dependent.size() != r) return false;
   dependent_ = dependent;
-  center_.resize(static_cast<std::size_t>(n_));
+  center_.resize(n_);
   for (std::size_t j = 0; j < center_.size(); ++j) center_[j] = x[j].mid();
   const auto inverted = [&] { return around == Center::refined ? invert_refined() : invert(); };
   if (!inverted()) return false;
@@ -93,7 +115,7 @@ bool Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
   const std::size_t r = equations_.size();
   bool moved = false;
   for (std::size_t a = 0; a < r; ++a) {
-    const auto d = static_cast<std::size_t>(dependent_[a]);
+    const std::size_t d = dependent_[a];
     double shift = 0;
     for (std::size_t b = 0; b < r; ++b) shift += y_[a * r + b] * values[b];
     if (!std::isfinite(shift)) continue;
@@ -104,16 +126,20 @@ bool Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
   return moved;
 }
 
+std::vector<int> Krawczyk::row_of() const {
+  std::vector<int> result(center_.size(), -1);
+  for (std::size_t a = 0; a < dependent_.size(); ++a) result[dependent_[a]] = static_cast<int>(a);
+  return result;
+}
+
 bool Krawczyk::invert() {
   const std::size_t r = equations_.size();
-  std::vector<int> row_of(center_.size(), -1);
-  for (std::size_t a = 0; a < r; ++a) row_of[static_cast<std::size_t>(dependent_[a])] = static_cast<int>(a);
+  const std::vector<int> place = row_of();
   std::vector<double> matrix(r * r, 0.0), entries;
   for (std::size_t b = 0; b < r; ++b) {
     equations_[b].approximate(center_, entries);
     for (std::size_t k = 0; k < entries.size(); ++k)
-      if (const int a = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; a >= 0)
-        matrix[b * r + static_cast<std::size_t>(a)] = entries[k];
+      if (const int a = place[equations_[b].columns()[k]]; a >= 0) matrix[b * r + a] = entries[k];
   }
   y_ = inverse(matrix, r);
   if (y_.size() != r * r) return false;
@@ -124,22 +150,20 @@ bool Krawczyk::invert() {
 bool Krawczyk::invert_refined() {
   const std::size_t r = equations_.size();
   const Sides center(center_.begin(), center_.end());
-  std::vector<int> row_of(center_.size(), -1);
-  for (std::size_t a = 0; a < r; ++a) row_of[static_cast<std::size_t>(dependent_[a])] = static_cast<int>(a);
+  const std::vector<int> place = row_of();
   Sides entries;
   std::vector<Sides> t(r, Sides(2 * r));  // J_D | I
   for (std::size_t b = 0; b < r; ++b) {
     equations_[b].derivatives(center, entries);
     t[b][r + b] = Enclosure(1.0);
     for (std::size_t k = 0; k < entries.size(); ++k)
-      if (const int a = row_of[static_cast<std::size_t>(equations_[b].columns()[k])]; a >= 0)
-        t[b][static_cast<std::size_t>(a)] = entries[k];
+      if (const int a = place[equations_[b].columns()[k]]; a >= 0) t[b][a] = entries[k];
   }
   for (std::size_t k = 0; k < r; ++k) {
-    const auto pivot = std::max_element(t.begin() + static_cast<std::ptrdiff_t>(k), t.end(),
-                                        [k](const Sides& a, const Sides& b) { return a[k].mig() < b[k].mig(); });
+    const auto pivot =
+        std::max_element(t.begin() + k, t.end(), [k](const Sides& a, const Sides& b) { return a[k].mig() < b[k].mig(); });
     if (!((*pivot)[k].mig() > 0)) return false;
-    std::iter_swap(t.begin() + static_cast<std::ptrdiff_t>(k), pivot);
+    std::iter_swap(t.begin() + k, pivot);
     // Nothing reads the columns up to the k-th again, and zeros, of which both halves are full, add nothing.
     std::vector<std::size_t> columns;
     for (std::size_t j = k + 1; j < 2 * r; ++j)
@@ -154,18 +178,17 @@ bool Krawczyk::invert_refined() {
   y_.assign(r * r, 0.0);
   for (std::size_t a = 0; a < r; ++a)
     for (std::size_t b = 0; b < r; ++b) y_[a * r + b] = t[a][r + b].mid();
-  return std::all_of(y_.begin(), y_.end(), [](double y) { return std::isfinite(y); });
+  return std::ranges::all_of(y_, [](double y) { return std::isfinite(y); });
 }
 
 void Krawczyk::multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const {
   const std::size_t r = equations_.size();
-  product.assign(r, Sides(static_cast<std::size_t>(n_)));
+  product.assign(r, Sides(n_));
   for (std::size_t a = 0; a < r; ++a)
     for (std::size_t b = 0; b < r; ++b) {
       const double y = y_[a * r + b];
       if (y == 0) continue;
-      for (std::size_t k = 0; k < rows[b].size(); ++k)
-        product[a][static_cast<std::size_t>(equations_[b].columns()[k])].add_product(y, rows[b][k]);
+      for (std::size_t k = 0; k < rows[b].size(); ++k) product[a][equations_[b].columns()[k]].add_product(y, rows[b][k]);
     }
 }
 
@@ -180,9 +203,21 @@ Sides Krawczyk::image(const Sides& x) {
       if (!own && product_[a][j].is_zero()) continue;
       sum.add_product(own ? product_[a][j] - Enclosure(1.0) : product_[a][j], x[j] - center_sides_[j]);
     }
-    image.push_back(center_sides_[static_cast<std::size_t>(dependent_[a])] - sum);
+    image.push_back(center_sides_[dependent_[a]] - sum);
   }
   return image;
+}
+
+bool Krawczyk::is_inside(const Sides& image, const Sides& x) const {
+  for (std::size_t a = 0; a < image.size(); ++a)
+    if (!image[a].strictly_inside(x[dependent_[a]])) return false;
+  return true;
+}
+
+bool Krawczyk::shrink(Sides& x, const Sides& image) const {
+  for (std::size_t a = 0; a < image.size(); ++a)
+    if (!x[dependent_[a]].intersect(image[a])) return false;
+  return true;
 }
 
 bool Krawczyk::is_injective(const Sides& x) {
@@ -192,7 +227,7 @@ bool Krawczyk::is_injective(const Sides& x) {
   std::vector<double> excess(r * r);  // ≥ |I − Y·J_D|
   for (std::size_t a = 0; a < r; ++a)
     for (std::size_t k = 0; k < r; ++k) {
-      const Enclosure& entry = derivatives_[a][static_cast<std::size_t>(dependent_[k])];
+      const Enclosure& entry = derivatives_[a][dependent_[k]];
       excess[a * r + k] = (Enclosure(a == k ? 1.0 : 0.0) - entry).mag();
     }
   return is_contraction(excess, r);
@@ -200,18 +235,18 @@ bool Krawczyk::is_injective(const Sides& x) {
 
 bool Krawczyk::center_solves(const Sides& x) const {
   Sides there = x;
-  for (const int d : dependent_) there[static_cast<std::size_t>(d)] = center_sides_[static_cast<std::size_t>(d)];
-  return std::all_of(equations_.begin(), equations_.end(), [&](const Row& f) { return f.value(there).is_zero(); });
+  for (const int d : dependent_) there[d] = center_sides_[d];
+  return std::ranges::all_of(equations_, [&](const Row& f) { return f.value(there).is_zero(); });
 }
 
 Enclosure Krawczyk::value_at_zeros(const Row& row, const Sides& x) const {
   // With R = Y·F and any real λ: R(c) + Y·S (z − c) ∋ 0 at a zero z, so row(z) ∈ row(c) − λ·R(c) + (S_row − λ·Y·S)(x − c).
   Sides slopes, gradient(x.size());
   row.slopes(x, center_sides_, slopes);
-  for (std::size_t k = 0; k < slopes.size(); ++k) gradient[static_cast<std::size_t>(row.columns()[k])] = slopes[k];
+  for (std::size_t k = 0; k < slopes.size(); ++k) gradient[row.columns()[k]] = slopes[k];
   Enclosure value = row.value(center_sides_);
   for (std::size_t a = 0; a < dependent_.size(); ++a) {
-    const double lambda = gradient[static_cast<std::size_t>(dependent_[a])].mid();
+    const double lambda = gradient[dependent_[a]].mid();
     if (lambda == 0) continue;
     value.add_product(-lambda, residual_[a]);
     for (std::size_t j = 0; j < x.size(); ++j)

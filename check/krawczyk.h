@@ -14,6 +14,12 @@ void drop_noise(std::vector<double>& y, std::size_t r);
 /// The inverse of a row-major r×r matrix in doubles; empty where it is singular to that precision.
 std::vector<double> inverse(std::vector<double> a, std::size_t r);
 
+/// Complete pivoting: rows and columns of a matrix that make a well-conditioned submatrix, so many at most.
+struct Pivots {
+  std::vector<std::size_t> rows, columns;
+};
+Pivots pivots(std::vector<std::vector<double>> t, std::size_t most);
+
 /// Is E·x < x for some x > 0? Then every matrix I − A with |A| ≤ E is regular: the spectral radius of E is below 1. E ≥ 0,
 /// row-major r×r.
 bool is_contraction(const std::vector<double>& e, std::size_t r);
@@ -33,6 +39,10 @@ class Krawczyk {
   /// K = c_D − Y·F(c) + (I − Y·S_D)(Z − c_D) − Y·S_F (X_F − c_F) over x = X_F × Z, with slopes S about c: every zero of F in
   /// x has its dependent variables in K. Entry a belongs to dependent[a].
   Sides image(const Sides& x);
+  /// Does an image lie in the interior of x's dependent sides? Then the box holds a zero for every value of the free ones.
+  bool is_inside(const Sides& image, const Sides& x) const;
+  /// Intersects the dependent sides with it. False: x holds no zero.
+  bool shrink(Sides& x, const Sides& image) const;
   /// Is |I − Y·J_D| r < r for some r > 0, J the Jacobian over x? Then F has at most one zero in x for each value of the free
   /// variables.
   bool is_injective(const Sides& x);
@@ -41,13 +51,15 @@ class Krawczyk {
   /// After image(x0), for x ⊂ x0: encloses the row at the zeros of F in x.
   Enclosure value_at_zeros(const Row& row, const Sides& x) const;
   /// After image: about |∂(dependent a)/∂x_j|.
-  double steepness(std::size_t a, int j) const { return product_[a][static_cast<std::size_t>(j)].mag(); }
+  double steepness(std::size_t a, int j) const { return product_[a][j].mag(); }
 
   const std::vector<double>& center() const { return center_; }
 
  private:
   // y_ := inverse of the dependent columns at the centre.
   bool invert();
+  // Of each variable which dependent it is; −1: none.
+  std::vector<int> row_of() const;
   // The same from the Jacobian in enclosures, by elimination with their midpoints.
   bool invert_refined();
   // One step of Newton's method with Y; did it move the centre?

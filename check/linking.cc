@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "corank/check/sheets.h"
-#include "corank/check/solution.h"
 
 namespace corank::check {
 
@@ -15,16 +14,14 @@ Linking::Linking(const System& system, const Problem& problem, const Cover& cove
   checked_by_its_box_.assign(regions, 0);
   for (const CoverBox& box : cover.boxes) {
     if (box.region < 0) continue;
-    const auto r = static_cast<std::size_t>(box.region);
+    const std::size_t r = box.region;
     if (!free_[r].empty() && free_[r] != box.free) {
       contradiction_[r] = "its boxes do not have the same free variables";
       continue;
     }
     if (free_[r].empty()) contradiction_[r].clear();
     free_[r] = box.free;
-    const bool all = std::all_of(box.free.begin(), box.free.end(), [&](int f) {
-      return box.box[static_cast<std::size_t>(f)].contains(cover.regions[r][static_cast<std::size_t>(f)]);
-    });
+    const bool all = std::ranges::all_of(box.free, [&](int f) { return box.box[f].contains(cover.regions[r][f]); });
     if (all) checked_by_its_box_[r] = 1;
   }
   for (const SheetBridge& bridge : bridges) free_.push_back(bridge.free);
@@ -36,22 +33,16 @@ const Box& Linking::region(std::size_t sheet) const {
 
 std::string Linking::sheet_fault(std::size_t sheet) const {
   if (sheet < cover_.regions.size()) return region_fault(sheet);
-  CoverBox box;
-  box.box = region(sheet);
-  box.verdict = Verdict::regular;
-  box.free = free_[sheet];
+  const CoverBox box{.box = region(sheet), .verdict = Verdict::regular, .free = free_[sheet]};
   return check_sheet(whole_, whole_.equations(), box, region(sheet));
 }
 
 std::string Linking::region_fault(std::size_t sheet) const {
   constexpr double kAnywhere = 1e300;
   if (!contradiction_[sheet].empty() || checked_by_its_box_[sheet]) return contradiction_[sheet];
-  CoverBox box;
-  box.box = region(sheet);
-  box.verdict = Verdict::regular;
-  box.free = free_[sheet];
+  CoverBox box{.box = region(sheet), .verdict = Verdict::regular, .free = free_[sheet]};
   for (int j = 0; j < system_.size(); ++j)
-    if (problem_.place(j) < 0) box.box[static_cast<std::size_t>(j)] = Interval(-kAnywhere, kAnywhere);
+    if (problem_.place(j) < 0) box.box[j] = Interval(-kAnywhere, kAnywhere);
   return check_sheet(problem_, problem_.equations(), box, box.box);
 }
 
@@ -59,14 +50,12 @@ bool Linking::contains(std::size_t sheet, const Sides& x) const {
   const Box& r = region(sheet);
   for (int j = 0; j < system_.size(); ++j)
     if (sheet >= cover_.regions.size() || problem_.place(j) >= 0)
-      if (!x[static_cast<std::size_t>(j)].inside(r[static_cast<std::size_t>(j)])) return false;
+      if (!x[j].inside(r[j])) return false;
   return true;
 }
 
 bool Linking::holds(std::size_t sheet, const Box& box) const {
-  Sides x;
-  for (int j = 0; j < system_.size(); ++j) x.emplace_back(box[static_cast<std::size_t>(j)]);
-  return contains(sheet, x);
+  return contains(sheet, Sides(box.begin(), box.begin() + system_.size()));
 }
 
 std::string Linking::link_fault(const SheetLink& link) const {
@@ -76,7 +65,7 @@ std::string Linking::link_fault(const SheetLink& link) const {
   const Sides x = solution_near(whole_, link.point, link.held, fault);
   if (!fault.empty()) return fault;
   for (const int k : {link.first, link.second})
-    if (!contains(static_cast<std::size_t>(k), x)) return "its solution is not shown to lie in both sheets";
+    if (!contains(k, x)) return "its solution is not shown to lie in both sheets";
   return "";
 }
 

@@ -1,19 +1,15 @@
 #include "corank/check/map.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <atomic>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 
 #include "corank/check/distinct.h"
 #include "corank/check/krawczyk.h"
+#include "corank/check/parallel.h"
 #include "corank/check/search.h"
 #include "corank/check/sheets.h"
+#include "corank/core/box.h"
 
 namespace corank::check {
 namespace {
@@ -36,8 +32,7 @@ class MapCheck {
         report_(report) {
     report_.cells.resize(claims.cells.size());
     for (int k = 0; k < problem_.size(); ++k)
-      if (std::find(parameters.begin(), parameters.end(), problem_.kept()[static_cast<std::size_t>(k)]) == parameters.end())
-        unknowns_.push_back(k);
+      if (std::ranges::find(parameters, problem_.kept()[k]) == parameters.end()) unknowns_.push_back(k);
   }
 
   void run() {
@@ -48,52 +43,33 @@ class MapCheck {
       if (const std::string fault = shape_fault(claims_.cells[c]); !fault.empty()) fail(c, fault);
     if (!report_.failures.empty()) return;
     check_overlaps();
-    const int threads = options_.threads > 0 ? options_.threads : tbb::this_task_arena::max_concurrency();
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
     std::vector<std::string> faults(claims_.cells.size());
-    arena.execute([&] { parallel(claims_.cells.size(), [&](std::size_t c) { faults[c] = check_cell(c); }); });
+    const bool finished = parallel(arena_, faults.size(), [&](std::size_t c) { faults[c] = check_cell(c); });
     for (std::size_t c = 0; c < faults.size(); ++c)
       if (!faults[c].empty()) fail(c, faults[c]);
-    if (stopped_) throw Stopped{};
+    if (!finished) throw Stopped{};
     report_.stage = "the search for more solutions";
     std::vector<std::size_t> open;
     for (std::size_t c = 0; c < report_.cells.size(); ++c)
       if (report_.cells[c].at_least && !report_.cells[c].complete) open.push_back(c);
-    arena.execute([&] { search(open, {problem_.domain()}); });
-    if (stopped_) throw Stopped{};
+    search(open, {problem_.domain()});
   }
 
  private:
-  // Work that was stopped sets stopped_.
-  template <class Work>
-  void parallel(std::size_t n, const Work& work) {
-    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-      if (stopped_) return;
-      const NearestRounding nearest;
-      try {
-        work(i);
-      } catch (const Stopped&) {
-        stopped_ = true;
-      }
-    });
-  }
-
   void fail(const std::string& what) { report_.failures.push_back(what); }
   void fail(std::size_t cell, const std::string& what) { fail("cell " + std::to_string(cell + 1) + ": " + what); }
 
   std::string shape_fault(const MapCellClaim& cell) const {
     if (cell.sides.size() != parameters_.size()) return "it does not have one side for each parameter";
     for (std::size_t k = 0; k < parameters_.size(); ++k)
-      if (!system_.variables[static_cast<std::size_t>(parameters_[k])].domain.contains(cell.sides[k]))
-        return "it is not within the map";
+      if (!system_.variables[parameters_[k]].domain.contains(cell.sides[k])) return "it is not within the map";
     if (cell.count < 0 || static_cast<std::int64_t>(cell.sheets.size()) != std::int64_t{cell.count} * copies_)
       return "it does not have as many sheets as it claims solutions";
     for (const MapSheet& sheet : cell.sheets) {
       if (sheet.box.size() != system_.variables.size() || sheet.region.size() != sheet.box.size())
         return "a sheet does not have one side for each variable";
       for (std::size_t k = 0; k < parameters_.size(); ++k)
-        if (sheet.box[static_cast<std::size_t>(parameters_[k])] != cell.sides[k]) return "a sheet is not over the cell";
+        if (sheet.box[parameters_[k]] != cell.sides[k]) return "a sheet is not over the cell";
     }
     return {};
   }
@@ -117,10 +93,7 @@ class MapCheck {
   std::string check_cell(std::size_t c) {
     const MapCellClaim& cell = claims_.cells[c];
     for (std::size_t k = 0; k < cell.sheets.size(); ++k) {
-      CoverBox box;
-      box.box = cell.sheets[k].box;
-      box.verdict = Verdict::regular;
-      box.free = parameters_;
+      const CoverBox box{.box = cell.sheets[k].box, .verdict = Verdict::regular, .free = parameters_};
       if (const std::string fault = check_sheet(problem_, problem_.equations(), box, cell.sheets[k].region); !fault.empty())
         return "sheet " + std::to_string(k + 1) + ": " + fault;
     }
@@ -142,7 +115,7 @@ class MapCheck {
       Sides part = x;
       bool some = true;
       for (std::size_t k = 0; k < parameters_.size(); ++k)
-        some = some && part[static_cast<std::size_t>(problem_.place(parameters_[k]))].intersect(Enclosure(sides[k]));
+        some = some && part[problem_.place(parameters_[k])].intersect(Enclosure(sides[k]));
       if (some) parts.push_back(std::move(part));
     }
     return parts;
@@ -154,8 +127,8 @@ class MapCheck {
     if (problem_.contradiction()) return true;
     std::vector<Sides> images, regions;
     for (const MapSheet& sheet : cell.sheets) {
-      images.push_back(kept(sheet.box));
-      regions.push_back(kept(sheet.region));
+      images.push_back(problem_.kept(sheet.box));
+      regions.push_back(problem_.kept(sheet.region));
     }
     const auto known = [&](const Sides& part) {
       for (std::size_t k = 0; k < images.size(); ++k)
@@ -172,15 +145,13 @@ class MapCheck {
   // What takes long in one cell takes no longer in all that are near: boxes that hold all zeros over these cells are found
   // for all of them, then for each quarter of them.
   void search(const std::vector<std::size_t>& cells, const std::vector<Sides>& open) {
-    if (cells.empty() || stopped_) return;
-    const NearestRounding nearest;
+    if (cells.empty()) return;
     if (cells.size() == 1) {
       report_.cells[cells[0]].complete = has_no_more(claims_.cells[cells[0]], open, kMostPartsAlone);
       return;
     }
     Box hull = claims_.cells[cells[0]].sides;
-    for (const std::size_t c : cells)
-      for (std::size_t k = 0; k < hull.size(); ++k) hull[k] = Interval::hull(hull[k], claims_.cells[c].sides[k]);
+    for (const std::size_t c : cells) include(hull, claims_.cells[c].sides);
     const auto narrow = [&](const Sides& x) { return is_injective(x); };
     std::size_t parts = 0;
     const std::vector<Sides> found =
@@ -192,12 +163,12 @@ class MapCheck {
     std::vector<std::vector<std::size_t>> groups;
     for (const auto& half : in_halves(cells, hull[0].width() > hull[1].width() ? 0 : 1))
       for (auto& quarter : in_halves(half, hull[0].width() > hull[1].width() ? 1 : 0)) groups.push_back(std::move(quarter));
-    parallel(groups.size(), [&](std::size_t g) { search(groups[g], found); });
+    if (!parallel(arena_, groups.size(), [&](std::size_t g) { search(groups[g], found); })) throw Stopped{};
   }
 
   std::vector<std::vector<std::size_t>> in_halves(std::vector<std::size_t> cells, std::size_t along) const {
     if (cells.size() < 2) return {cells};
-    const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
+    const auto middle = cells.begin() + cells.size() / 2;
     std::nth_element(cells.begin(), middle, cells.end(), [&](std::size_t a, std::size_t b) {
       return claims_.cells[a].sides[along].mid() < claims_.cells[b].sides[along].mid();
     });
@@ -216,39 +187,29 @@ class MapCheck {
     Sides hull = x;
     bool inside = true;
     for (const int u : unknowns_) {
-      const auto k = static_cast<std::size_t>(u);
+      const std::size_t k = u;
       inside = inside && x[k].inside(region[k]);
       hull[k] = Enclosure::hull(x[k], image[k]);
     }
     return inside || is_injective(hull);
   }
 
-  Sides kept(const Box& box) const {
-    Sides x;
-    for (const int j : problem_.kept()) x.emplace_back(box[static_cast<std::size_t>(j)]);
-    return x;
-  }
-
   bool apart(const Sides& x, const Sides& y) const {
-    return std::any_of(unknowns_.begin(), unknowns_.end(),
-                       [&](int k) { return !x[static_cast<std::size_t>(k)].overlaps(y[static_cast<std::size_t>(k)]); });
+    return std::ranges::any_of(unknowns_, [&](int k) { return !x[k].overlaps(y[k]); });
   }
 
   // Encloses the sheet's zero further, over x's value of the parameters; false: no further.
   bool tighten(Sides& x) const {
     Krawczyk newton(problem_.equations(), problem_.size());
     if (!newton.set(unknowns_, x, Krawczyk::Center::refined)) return false;
-    const Sides image = newton.image(x);
-    for (std::size_t a = 0; a < unknowns_.size(); ++a)
-      if (!x[static_cast<std::size_t>(unknowns_[a])].intersect(image[a])) return false;
-    return true;
+    return newton.shrink(x, newton.image(x));
   }
 
   bool differ(const MapCellClaim& cell, const MapSheet& a, const MapSheet& b) const {
-    Sides x = kept(a.box), y = kept(b.box);
+    Sides x = problem_.kept(a.box), y = problem_.kept(b.box);
     if (apart(x, y)) return true;
     for (std::size_t k = 0; k < parameters_.size(); ++k) {
-      const auto place = static_cast<std::size_t>(problem_.place(parameters_[k]));
+      const std::size_t place = problem_.place(parameters_[k]);
       x[place] = y[place] = Enclosure(cell.sides[k].mid());
     }
     for (int step = 0; step < kMostSteps; ++step) {
@@ -266,13 +227,13 @@ class MapCheck {
   const Options& options_;
   const Problem problem_;
   std::vector<int> unknowns_;  // the others that were kept, by their places among those
+  ThreadArena arena_{options_.threads};
   std::mutex mutex_;
-  std::atomic<bool> stopped_ = false;
   MapReport& report_;
 };
 
 std::size_t count(const std::vector<MapCellReport>& cells, bool MapCellReport::*what) {
-  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [&](const auto& c) { return c.*what; }));
+  return std::ranges::count_if(cells, [&](const auto& c) { return c.*what; });
 }
 
 }  // namespace
@@ -284,13 +245,10 @@ bool MapReport::complete() const { return verified() && completed() == cells.siz
 
 MapReport check_map(const System& system, const std::vector<int>& parameters, int copies, const MapClaims& claims,
                     const Options& options) {
-  const NearestRounding nearest;
   MapReport report;
+  report.stage = "the reduction";
   try {
-    report.stage = "the reduction";
-    MapCheck(system, parameters, copies, claims, options, report).run();
-  } catch (const Stopped&) {
-    report.interrupted = true;
+    report.interrupted = !finishes([&] { MapCheck(system, parameters, copies, claims, options, report).run(); });
   } catch (const std::invalid_argument& error) {
     report.failures.push_back(report.stage + ": " + error.what());
   }

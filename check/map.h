@@ -14,7 +14,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "corank/check/checker.h"
@@ -27,13 +26,10 @@ struct MapCellReport {
   bool complete = false;  ///< and no more
 };
 
-struct MapReport {
+struct MapReport : Findings {
   std::vector<MapCellReport> cells;
   std::size_t sheets = 0;   ///< that are confirmed
   std::uint64_t boxes = 0;  ///< of the searches for more solutions
-  std::vector<std::string> failures;
-  bool interrupted = false;
-  std::string stage;
 
   std::size_t at_least() const;  ///< cells
   std::size_t completed() const;

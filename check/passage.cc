@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <set>
 
 #include "corank/check/krawczyk.h"
 
@@ -48,9 +48,8 @@ std::vector<std::vector<double>> directions(const std::vector<Sides>& s) {
       }
     }
   list.insert(list.end(), inverse.begin(), inverse.end());
-  std::erase_if(list, [](const std::vector<double>& v) {
-    return !std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
-  });
+  std::erase_if(
+      list, [](const std::vector<double>& v) { return !std::ranges::all_of(v, [](double x) { return std::isfinite(x); }); });
   return list;
 }
 
@@ -63,30 +62,27 @@ Enclosure value(const std::vector<Sides>& s, const std::vector<double>& v) {
 
 }  // namespace
 
-PassageCheck::PassageCheck(const System& system, const StopFlag& stop) : stop_(stop) {
+PassageCheck::PassageCheck(const System& system, const StopFlag& stop) : stop_(stop), lengths_(domain_lengths(system)) {
   if (!system.passage || system.coefficient_tolerance > 0) return;
   const PassageForm& form = *system.passage;
   has_form_ = true;
-  equations_ = static_cast<std::size_t>(form.equations);
-  columns_ = static_cast<std::size_t>(form.columns);
+  equations_ = form.equations;
+  columns_ = form.columns;
   multipliers_ = form.multipliers;
-  std::vector<int> identity(system.variables.size());
-  std::iota(identity.begin(), identity.end(), 0);
+  std::set<int> arguments;
   const auto add = [&](const std::vector<Polynomial>& list, std::vector<Row>& rows) {
     for (const Polynomial& f : list) {
-      rows.emplace_back(Terms(f, 0), identity);
-      arguments_.insert(arguments_.end(), rows.back().columns().begin(), rows.back().columns().end());
+      rows.emplace_back(f, system.size());
+      arguments.insert(rows.back().columns().begin(), rows.back().columns().end());
     }
   };
   add(form.jacobian, jacobian_);
   add(form.hessian, hessian_);
   add(form.slack, slack_);
   add(form.normal, normal_);
-  lengths_ = domain_lengths(system);
-  std::sort(arguments_.begin(), arguments_.end());
-  arguments_.erase(std::unique(arguments_.begin(), arguments_.end()), arguments_.end());
-  for (const auto* list : {&system.equations, &system.inequalities})
-    for (const Polynomial& f : *list) rows_.emplace_back(Terms(f, 0), identity);
+  arguments_.assign(arguments.begin(), arguments.end());
+  add(system.equations, rows_);
+  add(system.inequalities, rows_);
   system_equations_ = system.equations.size();
 }
 
@@ -95,9 +91,9 @@ std::optional<PassageCheck::Form> PassageCheck::form(const Sides& x) const {
   const std::size_t none = equations_;
   std::size_t passed = none;
   for (std::size_t i = 0; i < equations_; ++i) {
-    const Enclosure& side = x[static_cast<std::size_t>(multipliers_[i])];
+    const Enclosure& side = x[multipliers_[i]];
     if (side.has_zero()) continue;
-    if (passed == none || side.mig() > x[static_cast<std::size_t>(multipliers_[passed])].mig()) passed = i;
+    if (passed == none || side.mig() > x[multipliers_[passed]].mig()) passed = i;
   }
   if (equations_ > 0 && (passed == none || columns_ + 1 < equations_)) return std::nullopt;
   std::vector<Sides> m;
@@ -106,34 +102,21 @@ std::optional<PassageCheck::Form> PassageCheck::form(const Sides& x) const {
     m.emplace_back();
     for (std::size_t j = 0; j < columns_; ++j) m.back().push_back(jacobian_[i * columns_ + j].value(x));
   }
-  // Complete pivoting picks the columns of N.
   const std::size_t r = m.size();
   std::vector<std::vector<double>> t;
   for (const Sides& row : m) {
     t.emplace_back();
     for (const Enclosure& e : row) t.back().push_back(e.mid());
   }
-  std::vector<bool> used(r, false), taken(columns_, false);
-  std::vector<std::size_t> dependent, others;
-  for (std::size_t step = 0; step < r; ++step) {
-    std::size_t row = r, column = 0;
-    for (std::size_t i = 0; i < r; ++i)
-      for (std::size_t j = 0; j < columns_; ++j)
-        if (!used[i] && !taken[j] && (row == r || std::fabs(t[i][j]) > std::fabs(t[row][column]))) row = i, column = j;
-    if (row == r || t[row][column] == 0) return std::nullopt;
-    used[row] = taken[column] = true;
-    dependent.push_back(column);
-    for (std::size_t i = 0; i < r; ++i) {
-      const double factor = t[i][column] / t[row][column];
-      for (std::size_t j = 0; j < columns_ && !used[i]; ++j) t[i][j] -= factor * t[row][j];
-    }
-  }
+  const std::vector<std::size_t> dependent = pivots(t, r).columns;  // of N
+  if (dependent.size() < r) return std::nullopt;
+  std::vector<std::size_t> others;
   for (std::size_t j = 0; j < columns_; ++j)
-    if (!taken[j]) others.push_back(j);
+    if (std::ranges::find(dependent, j) == dependent.end()) others.push_back(j);
 
   std::vector<double> middle;
-  for (const Sides& row : m)
-    for (const std::size_t j : dependent) middle.push_back(row[j].mid());
+  for (const std::vector<double>& row : t)
+    for (const std::size_t j : dependent) middle.push_back(row[j]);
   const std::vector<double> y = r > 0 ? inverse(middle, r) : std::vector<double>{};
   if (y.size() != r * r) return std::nullopt;
   const auto times_y = [&](std::size_t i, std::size_t column) {
@@ -228,30 +211,11 @@ std::string PassageCheck::fault(const CoverBox& box) const {
   double length = 0;
   for (const double d : box.side) length = std::hypot(length, d);
   if (box.side.size() != normal_.size() || !(std::fabs(length - 1) < 1e-9)) return "its side is not a unit vector";
-  Sides whole;
-  for (const Interval& side : box.box) whole.emplace_back(side);
-  std::vector<Sides> open{std::move(whole)};
-  for (int parts = 0; !open.empty(); ++parts) {
-    stop_.poll();
-    Sides x = std::move(open.back());
-    open.pop_back();
-    if (holds(box, x) || !contract(x) || holds(box, x)) continue;
-    std::size_t widest = x.size();
-    double width = 0;
-    for (const int j : arguments_)
-      if (const Enclosure& side = x[static_cast<std::size_t>(j)];
-          side.width() > width * lengths_[static_cast<std::size_t>(j)] && side.lo() < side.mid() && side.mid() < side.hi())
-        width = side.width() / lengths_[static_cast<std::size_t>(j)], widest = static_cast<std::size_t>(j);
-    if (widest == x.size() || parts > kMostParts)
-      return std::string("it is not shown that the output finds a ") +
-             (box.passage == Passage::barrier ? "barrier there, on that side" : "way through there");
-    const double from = x[widest].lo(), middle = x[widest].mid(), to = x[widest].hi();
-    open.push_back(x);
-    open.back()[widest] = Enclosure(middle, to);
-    open.push_back(std::move(x));
-    open.back()[widest] = Enclosure(from, middle);
-  }
-  return "";
+  const bool shown = shown_in_parts(Sides(box.box.begin(), box.box.end()), arguments_, lengths_, kMostParts, stop_,
+                                    [&](Sides& x) { return holds(box, x) || !contract(x) || holds(box, x); });
+  if (shown) return "";
+  return std::string("it is not shown that the output finds a ") +
+         (box.passage == Passage::barrier ? "barrier there, on that side" : "way through there");
 }
 
 }  // namespace corank::check

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corank/check/sheets.h"
+#include "corank/core/box.h"
 
 namespace corank::check {
 
@@ -11,10 +12,8 @@ PieceSheets::PieceSheets(const Problem& whole, const Problem& reduced, const Cov
     : whole_(whole), reduced_(reduced), cover_(cover), bridges_(bridges) {}
 
 std::string PieceSheets::bridge_fault(std::size_t bridge) const {
-  CoverBox box;
-  box.box = bridges_[bridge].region;
-  box.verdict = Verdict::boundary;  // where it leaves the domain the ends of the domain say so
-  box.free = bridges_[bridge].free;
+  // Where it leaves the domain the ends of the domain say so.
+  const CoverBox box{.box = bridges_[bridge].region, .verdict = Verdict::boundary, .free = bridges_[bridge].free};
   return check_sheet(whole_, whole_.equations(), box, box.box);
 }
 
@@ -23,14 +22,13 @@ const std::vector<int>& PieceSheets::free(std::size_t sheet) const {
 }
 
 const Box& PieceSheets::region(std::size_t sheet) const {
-  return is_box(sheet) ? cover_.regions[static_cast<std::size_t>(cover_.boxes[sheet].region)]
-                       : bridges_[sheet - cover_.boxes.size()].region;
+  return is_box(sheet) ? cover_.regions[cover_.boxes[sheet].region] : bridges_[sheet - cover_.boxes.size()].region;
 }
 
 FreeSides PieceSheets::over(std::size_t sheet) const {
   const Box& box = is_box(sheet) ? cover_.boxes[sheet].box : region(sheet);
   FreeSides result;
-  for (const int f : free(sheet)) result.push_back(box[static_cast<std::size_t>(f)]);
+  for (const int f : free(sheet)) result.push_back(box[f]);
   return result;
 }
 
@@ -39,11 +37,11 @@ Sides PieceSheets::start(std::size_t sheet, const FreeSides& over) const {
   const Box& r = region(sheet);
   Sides x(r.begin(), r.end());
   const std::vector<int>& frees = free(sheet);
-  for (std::size_t k = 0; k < frees.size(); ++k) x[static_cast<std::size_t>(frees[k])] = Enclosure(over[k]);
+  for (std::size_t k = 0; k < frees.size(); ++k) x[frees[k]] = Enclosure(over[k]);
   if (!is_box(sheet)) return x;
   Sides kept;
-  for (const int j : reduced_.kept()) kept.push_back(x[static_cast<std::size_t>(j)]);
-  for (const Problem::Value& v : reduced_.values()) x[static_cast<std::size_t>(v.variable)] = v.row.value(kept);
+  for (const int j : reduced_.kept()) kept.push_back(x[j]);
+  for (const Problem::Value& v : reduced_.values()) x[v.variable] = v.row.value(kept);
   return x;
 }
 
@@ -51,7 +49,7 @@ bool PieceSheets::holds(std::size_t sheet, const FreeSides& over, const Sides& x
   const Box& r = region(sheet);
   const std::vector<int>& frees = free(sheet);
   for (std::size_t k = 0; k < frees.size(); ++k)
-    if (!x[static_cast<std::size_t>(frees[k])].inside(over[k])) return false;
+    if (!x[frees[k]].inside(over[k])) return false;
   for (std::size_t j = 0; j < r.size(); ++j)
     if ((!is_box(sheet) || reduced_.place(static_cast<int>(j)) >= 0) && !x[j].inside(r[j])) return false;
   return true;
@@ -60,17 +58,11 @@ bool PieceSheets::holds(std::size_t sheet, const FreeSides& over, const Sides& x
 namespace {
 
 // Have they more in common than their borders?
-bool overlap(const FreeSides& x, const FreeSides& other) {
+bool overlap_inside(const FreeSides& x, const FreeSides& other) {
   for (std::size_t k = 0; k < x.size(); ++k) {
     const bool point = x[k].lo() == x[k].hi();
     if (point ? !other[k].contains(x[k]) : !(other[k].lo() < x[k].hi() && x[k].lo() < other[k].hi())) return false;
   }
-  return true;
-}
-
-bool contains(const FreeSides& outer, const FreeSides& x) {
-  for (std::size_t k = 0; k < x.size(); ++k)
-    if (!outer[k].contains(x[k])) return false;
   return true;
 }
 
@@ -80,7 +72,7 @@ void add_open(const FreeSides& x, const std::vector<const FreeSides*>& others, c
   std::vector<const FreeSides*> near;
   for (const FreeSides* other : others) {
     if (contains(*other, x)) return;
-    if (overlap(x, *other)) near.push_back(other);
+    if (overlap_inside(x, *other)) near.push_back(other);
   }
   // Where most of their sides end within x, at the middle one of these ends.
   std::size_t along = 0;
@@ -96,7 +88,7 @@ void add_open(const FreeSides& x, const std::vector<const FreeSides*>& others, c
     open.push_back(x);
     return;
   }
-  const auto middle = cuts.begin() + static_cast<std::ptrdiff_t>(cuts.size() / 2);
+  const auto middle = cuts.begin() + cuts.size() / 2;
   std::nth_element(cuts.begin(), middle, cuts.end());
   FreeSides first = x, second = x;
   first[along] = Interval(x[along].lo(), *middle);

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
+#include "corank/check/classes.h"
 #include "corank/check/distinct.h"
 #include "corank/check/inertia.h"
 #include "corank/check/krawczyk.h"
 #include "corank/check/pieces_bound.h"
-#include "corank/check/solution.h"
+#include "corank/check/sheets.h"
 #include "corank/core/box.h"
 
 namespace corank::check {
@@ -38,7 +38,7 @@ using Mask = std::uint32_t;
 struct Cell {
   std::size_t box = 0;
   Sides sides;
-  Box hull;  // in doubles
+  Box hull{};  // in doubles
   Mask positive = 0, mixed = 0;
 };
 
@@ -47,17 +47,14 @@ class PieceCheck {
   PieceCheck(const Problem& problem, const Problem& reduced, const Cover& cover, const PieceFunctions& functions,
              const PieceClaims& claims, int threads)
       : problem_(problem), reduced_(reduced), cover_(cover), functions_(functions), claims_(claims), threads_(threads) {
-    std::vector<int> place(static_cast<std::size_t>(problem.size()));
-    std::iota(place.begin(), place.end(), 0);
-    for (const Polynomial& g : functions.functions) rows_.emplace_back(Terms(g, 0), place);
-    for (std::size_t m = 0; m < matrices_.size(); ++m)
-      for (const Polynomial& entry : functions.matrices[m].entries) matrices_[m].emplace_back(Terms(entry, 0), place);
+    for (const Polynomial& g : functions.functions) rows_.emplace_back(g, problem.size());
+    for (std::size_t m = 0; m < matrices_.size(); ++m) matrices_[m] = entries_of(functions.matrices[m], problem.size());
   }
 
   PieceReport run() {
     if (!functions_match()) return fail("its functions are not the factors of the model's determinants"), std::move(report_);
     if (rows_.size() > kMostFunctions) return fail("there are too many functions"), std::move(report_);
-    if (claims_.at_least < 0 || static_cast<std::size_t>(claims_.at_least) != claims_.members.size())
+    if (claims_.at_least != static_cast<int>(claims_.members.size()))
       return fail("there is not one member of each piece that is claimed"), std::move(report_);
     for (std::size_t k = 0; k < claims_.members.size(); ++k) check_member(k);
     if (report_.failures.empty()) check_distinct_members();
@@ -102,20 +99,13 @@ class PieceCheck {
   // Each is a multiple of one of the others, either way.
   bool functions_match() const {
     const auto within = [](const std::vector<Polynomial>& list, const std::vector<Polynomial>& others) {
-      return std::all_of(list.begin(), list.end(), [&](const Polynomial& f) {
+      return std::ranges::all_of(list, [&](const Polynomial& f) {
         const Terms terms(f, 0);
-        return !terms.list().empty() && std::any_of(others.begin(), others.end(),
-                                                    [&](const Polynomial& g) { return terms.is_multiple_of(Terms(g, 0)); });
+        return !terms.list().empty() &&
+               std::ranges::any_of(others, [&](const Polynomial& g) { return terms.is_multiple_of(Terms(g, 0)); });
       });
     };
     return within(functions_.functions, functions_.factors) && within(functions_.factors, functions_.functions);
-  }
-
-  bool is_end(const Condition& c) const {
-    if (c.implied) return false;
-    if (c.variable < 0) return true;
-    const Variable& v = problem_.system().variables[static_cast<std::size_t>(c.variable)];
-    return !(v.kind == VariableKind::length && v.lower == v.upper);
   }
 
   void check_member(std::size_t k) {
@@ -128,7 +118,8 @@ class PieceCheck {
     for (std::size_t j = 0; j < x.size(); ++j)
       if (!x[j].inside(member.box[j])) return fail(name + "its solution is not shown to lie in its box");
     for (const Condition& c : problem_.conditions())
-      if (is_end(c) && !c.row.value(x).is_positive()) return fail(name + "it is not shown to lie within the limits");
+      if (problem_.is_end(c) && !c.row.value(x).is_positive())
+        return fail(name + "it is not shown to lie within the limits");
     if (member.signs.size() != rows_.size()) return fail(name + "it does not have one sign for each function");
     for (std::size_t g = 0; g < rows_.size(); ++g) {
       const Enclosure value = rows_[g].value(x);
@@ -136,18 +127,19 @@ class PieceCheck {
         return fail(name + "the sign of function " + std::to_string(g + 1) + " is not what it says");
     }
     for (std::size_t m = 0; m < matrices_.size(); ++m) {
+      const PolynomialMatrix& matrix = functions_.matrices[m];
       if (member.determinant_signs[m] == 0) continue;
-      const auto columns = static_cast<std::size_t>(functions_.matrices[m].columns);
-      std::vector<Sides> values;
-      for (std::size_t e = 0; e < matrices_[m].size(); ++e) {
-        if (e % columns == 0) values.emplace_back();
-        values.back().push_back(matrices_[m][e].value(x));
-      }
-      if (values.size() != columns || determinant_sign(std::move(values)) != member.determinant_signs[m])
+      if (matrix.rows != matrix.columns || determinant_sign(values(matrices_[m], x)) != member.determinant_signs[m])
         return fail(name + "the sign of a determinant is not what it says");
     }
     members_.push_back(x);
     ++report_.members;
+  }
+
+  static bool apart(const Sides& x, const Sides& y) {
+    for (std::size_t j = 0; j < x.size(); ++j)
+      if (!x[j].overlaps(y[j])) return true;
+    return false;
   }
 
   // No configuration stands for two pieces.
@@ -158,13 +150,11 @@ class PieceCheck {
       for (const Enclosure& side : members_[k]) hulls[k].emplace_back(side.lo(), side.hi());
       boxes.push_back(&hulls[k]);
     }
-    const auto apart = [&](std::size_t a, std::size_t b) {
+    const auto told_apart = [&](std::size_t a, std::size_t b) {
       problem_.stop().poll();
-      for (std::size_t j = 0; j < members_[a].size(); ++j)
-        if (!members_[a][j].overlaps(members_[b][j])) return true;
-      return false;
+      return apart(members_[a], members_[b]);
     };
-    for (const auto& [a, b] : meeting_pairs(boxes, apart, 1))
+    for (const auto& [a, b] : meeting_pairs(boxes, told_apart, 1))
       fail("members " + std::to_string(std::min(a, b) + 1) + " and " + std::to_string(std::max(a, b) + 1) +
            " are one configuration: it cannot stand for two pieces");
   }
@@ -172,20 +162,16 @@ class PieceCheck {
   // Shrinks the cell to its solutions and finds the functions' signs; false: it has none in the domain.
   bool examine(Cell& cell) const {
     const CoverBox& box = cover_.boxes[cell.box];
-    std::vector<int> dependent;
-    for (int j = 0; j < problem_.size(); ++j)
-      if (std::find(box.free.begin(), box.free.end(), j) == box.free.end()) dependent.push_back(j);
+    const std::vector<int> dependent = all_but(box.free, problem_.size());
     Krawczyk newton(problem_.equations(), problem_.size());
     bool linear = false;
     for (int step = 0; step < 2; ++step) {
       if (!newton.set(dependent, cell.sides, Krawczyk::Center::polished)) break;
-      const Sides image = newton.image(cell.sides);
-      for (std::size_t a = 0; a < image.size(); ++a)
-        if (!cell.sides[static_cast<std::size_t>(dependent[a])].intersect(image[a])) return false;
+      if (!newton.shrink(cell.sides, newton.image(cell.sides))) return false;
       linear = true;
     }
     for (const Condition& c : problem_.conditions())
-      if (is_end(c) && c.row.value(cell.sides).is_negative()) return false;
+      if (problem_.is_end(c) && c.row.value(cell.sides).is_negative()) return false;
     cell.positive = cell.mixed = 0;
     for (std::size_t g = 0; g < rows_.size(); ++g) {
       Enclosure value = rows_[g].value(cell.sides);
@@ -201,31 +187,21 @@ class PieceCheck {
   bool divide(int halvings, std::vector<Cell>& cells) const {
     const std::vector<double> lengths = domain_lengths(problem_.system());
     for (std::size_t b = 0; b < cover_.boxes.size(); ++b) {
-      Cell whole;
-      whole.box = b;
-      for (const Interval& side : cover_.boxes[b].box) whole.sides.emplace_back(side);
+      const CoverBox& box = cover_.boxes[b];
       std::vector<std::pair<Cell, int>> open;
-      open.emplace_back(std::move(whole), 0);
+      open.emplace_back(Cell{.box = b, .sides = Sides(box.box.begin(), box.box.end())}, 0);
       while (!open.empty()) {
         problem_.stop().poll();
         auto [cell, depth] = std::move(open.back());
         open.pop_back();
         if (!examine(cell)) continue;
         if (cells.size() + open.size() > kMostCells) return false;
-        std::size_t along = cell.sides.size();
-        for (const int f : cover_.boxes[b].free)
-          if (const auto j = static_cast<std::size_t>(f);
-              along == cell.sides.size() || cell.sides[j].width() * lengths[along] > cell.sides[along].width() * lengths[j])
-            along = j;
-        const double from = cell.sides[along].lo(), middle = cell.sides[along].mid(), to = cell.sides[along].hi();
-        if (cell.mixed == 0 || depth == halvings || !(from < middle && middle < to)) {
+        auto halves = cell.mixed == 0 || depth == halvings ? std::nullopt : halved(cell.sides, box.free, lengths);
+        if (!halves) {
           cells.push_back(std::move(cell));
           continue;
         }
-        open.emplace_back(cell, depth + 1);
-        open.back().first.sides[along] = Enclosure(from, middle);
-        cell.sides[along] = Enclosure(middle, to);
-        open.emplace_back(std::move(cell), depth + 1);
+        for (Sides& half : *halves) open.emplace_back(Cell{.box = b, .sides = std::move(half)}, depth + 1);
       }
     }
     return true;
@@ -241,23 +217,17 @@ class PieceCheck {
   }
 
   int count(const std::vector<Cell>& cells) const {
-    std::vector<std::size_t> parent;
-    const auto find = [&](std::size_t k) {
-      while (parent[k] != k) k = parent[k] = parent[parent[k]];
-      return k;
-    };
     std::vector<std::map<Mask, std::size_t>> parts(cells.size());
+    std::size_t number = 0;
     for (std::size_t c = 0; c < cells.size(); ++c)
-      for_each_choice(cells[c].mixed, cells[c].positive, [&](Mask signs) {
-        parts[c].emplace(signs, parent.size());
-        parent.push_back(parent.size());
-      });
+      for_each_choice(cells[c].mixed, cells[c].positive, [&](Mask signs) { parts[c].emplace(signs, number++); });
+    Classes classes(number);
     std::vector<const Box*> hulls;
     for (const Cell& cell : cells) hulls.push_back(&cell.hull);
     const auto join = [&](std::size_t a, std::size_t b) {
       problem_.stop().poll();
       for (const auto& [signs, part] : parts[a])
-        if (const auto other = parts[b].find(signs); other != parts[b].end()) parent[find(part)] = find(other->second);
+        if (const auto other = parts[b].find(signs); other != parts[b].end()) classes.unite(part, other->second);
       return true;
     };
     meeting_pairs(hulls, join, 1);
@@ -271,18 +241,15 @@ class PieceCheck {
       for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto part = parts[c].find(signs);
         if (part == parts[c].end()) continue;
-        bool overlaps = true;
-        for (std::size_t j = 0; overlaps && j < members_[k].size(); ++j)
-          overlaps = members_[k][j].overlaps(cells[c].sides[j]);
-        if (!overlaps) continue;
-        if (first) parent[find(*first)] = find(part->second);
+        if (apart(members_[k], cells[c].sides)) continue;
+        if (first) classes.unite(*first, part->second);
         first = part->second;
       }
       if (first) at.push_back(*first);
     }
-    std::set<std::size_t> classes;
-    for (const std::size_t part : at) classes.insert(find(part));
-    return static_cast<int>(classes.size());
+    std::set<std::size_t> pieces;
+    for (const std::size_t part : at) pieces.insert(classes.of(part));
+    return static_cast<int>(pieces.size());
   }
 
   const Problem& problem_;
@@ -292,7 +259,7 @@ class PieceCheck {
   const PieceClaims& claims_;
   int threads_;
   std::vector<Row> rows_;
-  std::array<std::vector<Row>, 2> matrices_;
+  std::array<RowMatrix, 2> matrices_;
   std::vector<Sides> members_;
   PieceReport report_;
 };
@@ -301,22 +268,21 @@ class PieceCheck {
 
 bool PiecesReport::verified() const {
   return failures.empty() && !interrupted && space.verified() &&
-         std::all_of(lists.begin(), lists.end(), [](const PieceReport& r) { return r.failures.empty(); });
+         std::ranges::all_of(lists, [](const PieceReport& r) { return r.failures.empty(); });
 }
 
 bool PiecesReport::covered() const { return verified() && space.complete(); }
 
 bool PiecesReport::complete() const {
-  return covered() && std::all_of(lists.begin(), lists.end(), [](const PieceReport& r) { return r.bounded; });
+  return covered() && std::ranges::all_of(lists, [](const PieceReport& r) { return r.bounded; });
 }
 
 PiecesReport check_pieces(const System& system, const Cover& cover, const std::vector<PieceClaims>& claims,
                           const std::vector<PieceFunctions>& functions, const Options& options) {
-  const NearestRounding nearest;
   const StopFlag stop(options.ended);
   PiecesReport report;
   const auto fail = [&](std::string what) { report.failures.push_back(std::move(what)); };
-  try {
+  report.interrupted = !finishes([&] {
     report.stage = "the cover";
     report.space = check(system, cover, options);
     if (report.space.interrupted) throw Stopped{};
@@ -331,14 +297,12 @@ PiecesReport check_pieces(const System& system, const Cover& cover, const std::v
     if (static_cast<int>(problem.equations().size()) + cover.dimension != problem.size() || cover.dimension < 1)
       fail("the set does not have the dimension that its equations leave");
     if (claims.size() != functions.size()) fail("the lists of pieces are not those of the model");
-    if (!report.failures.empty()) return report;
+    if (!report.failures.empty()) return;
     report.stage = "the pieces";
     const Problem reduced(system, cover.reduction, stop);
     for (std::size_t k = 0; k < claims.size(); ++k)
       report.lists.push_back(PieceCheck(problem, reduced, cover, functions[k], claims[k], options.threads).run());
-  } catch (const Stopped&) {
-    report.interrupted = true;
-  }
+  });
   return report;
 }
 

@@ -37,12 +37,9 @@ struct PieceReport {
   std::vector<std::string> failures;
 };
 
-struct PiecesReport {
+struct PiecesReport : Findings {
   Report space;
   std::vector<PieceReport> lists;
-  std::vector<std::string> failures;
-  bool interrupted = false;
-  std::string stage;
 
   /// Every lower bound and every member is confirmed, as far as the boxes go that the file has.
   bool verified() const;

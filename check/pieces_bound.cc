@@ -1,19 +1,20 @@
 #include "corank/check/pieces_bound.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 
 #include "corank/check/classes.h"
 #include "corank/check/distinct.h"
+#include "corank/check/parallel.h"
 #include "corank/check/piece_sheets.h"
+#include "corank/check/sheets.h"
 #include "corank/check/sign_parts.h"
-#include "corank/check/solution.h"
-#include "corank/core/threads.h"
+#include "corank/core/box.h"
 
 namespace corank::check {
 namespace {
@@ -47,9 +48,9 @@ class Bound {
         functions_(functions.size()),
         rows_(functions),
         sheets_(whole, reduced, cover, proof.bridges),
-        threads_(threads) {
+        arena_(threads) {
     for (const Condition& c : whole.conditions())
-      if (is_end(whole, c)) rows_.push_back(c.row);
+      if (whole.is_end(c)) rows_.push_back(c.row);
   }
 
   PieceBound run() {
@@ -74,28 +75,14 @@ class Bound {
   }
 
  private:
-  template <class Work>
-  void parallel(std::size_t n, const Work& work) const {
-    ThreadArena arena(threads_);
-    std::atomic<bool> stopped = false;
-    arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-        if (stopped) return;
-        const NearestRounding nearest;
-        try {
-          work(i);
-        } catch (const Stopped&) {
-          stopped = true;
-        }
-      });
-    });
-    if (stopped) throw Stopped{};
+  void for_each(std::size_t n, const std::function<void(std::size_t)>& work) {
+    if (!parallel(arena_, n, work)) throw Stopped{};
   }
 
   std::string check_bridges() {
     for (std::size_t k = 0; k < proof_.bridges.size(); ++k) {
       const SheetBridge& bridge = proof_.bridges[k];
-      if (bridge.region.size() != static_cast<std::size_t>(whole_.size()) || bridge.free.empty())
+      if (static_cast<int>(bridge.region.size()) != whole_.size() || bridge.free.empty())
         return "a sheet of its own has no box or no free variable";
       if (const std::string fault = sheets_.bridge_fault(k); !fault.empty())
         return "sheet " + std::to_string(k + 1) + " of its own: " + fault;
@@ -107,13 +94,11 @@ class Bound {
     if (proof_.cells.size() > kMostPieceCells) return "there are too many cells";
     cells_of_.resize(sheets_.size());
     for (const PieceCell& cell : proof_.cells) {
-      if (cell.sheet < 0 || static_cast<std::size_t>(cell.sheet) >= sheets_.size())
-        return "a cell does not belong to a sheet";
-      const FreeSides over = sheets_.over(static_cast<std::size_t>(cell.sheet));
+      if (cell.sheet < 0 || cell.sheet >= static_cast<int>(sheets_.size())) return "a cell does not belong to a sheet";
+      const FreeSides over = sheets_.over(cell.sheet);
       if (cell.sides.size() != over.size()) return "a cell does not have one side for each free variable";
-      for (std::size_t k = 0; k < over.size(); ++k)
-        if (!over[k].contains(cell.sides[k])) return "a cell is not within its sheet";
-      cells_of_[static_cast<std::size_t>(cell.sheet)].push_back(&cell.sides);
+      if (!contains(over, cell.sides)) return "a cell is not within its sheet";
+      cells_of_[cell.sheet].push_back(&cell.sides);
     }
     return "";
   }
@@ -126,7 +111,7 @@ class Bound {
 
   // Is nothing of the cell in S? An end of the domain or an inequality says so.
   bool is_outside(const SignCell& cell) const {
-    return std::any_of(cell.range.begin() + static_cast<std::ptrdiff_t>(functions_), cell.range.end(),
+    return std::any_of(cell.range.begin() + functions_, cell.range.end(),
                        [](const Enclosure& e) { return (-e).is_nonnegative(); });
   }
 
@@ -198,12 +183,11 @@ class Bound {
   std::string examine_all() {
     std::vector<std::vector<CellOfPiece>> found(proof_.cells.size());
     std::atomic<std::size_t> unknown = 0;
-    parallel(found.size(), [&](std::size_t i) {
+    for_each(found.size(), [&](std::size_t i) {
       const PieceCell& cell = proof_.cells[i];
-      if (!examine(static_cast<std::size_t>(cell.sheet), cell.sides, kHalvings, found[i])) ++unknown;
+      if (!examine(cell.sheet, cell.sides, kHalvings, found[i])) ++unknown;
     });
-    for (std::vector<CellOfPiece>& list : found)
-      for (CellOfPiece& cell : list) cells_.push_back(std::move(cell));
+    for (std::vector<CellOfPiece>& list : found) std::move(list.begin(), list.end(), std::back_inserter(cells_));
     result_.cells = cells_.size();
     return unknown == 0 ? "" : std::to_string(unknown) + " cells have parts that are not known";
   }
@@ -218,10 +202,7 @@ class Bound {
     for (std::size_t other = 0; other < sheets_.size(); ++other) {
       if (other == sheet || !sheets_.holds(other, sheets_.over(other), cell.sides)) continue;
       FreeSides there;
-      for (const int f : sheets_.free(other)) {
-        const Enclosure& side = cell.sides[static_cast<std::size_t>(f)];
-        there.emplace_back(side.lo(), side.hi());
-      }
+      for (const int f : sheets_.free(other)) there.emplace_back(cell.sides[f].lo(), cell.sides[f].hi());
       if (open_parts(there, cells_of_[other], whole_.stop()).empty()) return true;
     }
     return halvings > 0 &&
@@ -230,7 +211,7 @@ class Bound {
 
   std::string check_cover() {
     std::atomic<std::size_t> left = 0;
-    parallel(cover_.boxes.size(), [&](std::size_t b) {
+    for_each(cover_.boxes.size(), [&](std::size_t b) {
       for (const FreeSides& part : open_parts(sheets_.over(b), cells_of_[b], whole_.stop()))
         if (!is_elsewhere(b, part, kHalvingsElsewhere)) ++left;
     });
@@ -328,7 +309,7 @@ class Bound {
 
   void join_by_links() {
     std::vector<Sides> solutions(proof_.links.size());
-    parallel(solutions.size(), [&](std::size_t i) {
+    for_each(solutions.size(), [&](std::size_t i) {
       std::string fault;
       Sides x = solution_near(whole_, proof_.links[i].point, proof_.links[i].held, fault);
       if (fault.empty()) solutions[i] = std::move(x);
@@ -382,21 +363,13 @@ class Bound {
         SignCell at = parts_.cell(sheets_.free(a.sheet), a.cell.sides);
         for (std::size_t k = 0; k < both->size(); ++k) {
           const Interval& side = (*both)[k];
-          at.sides[static_cast<std::size_t>((*at.free)[k])] =
-              Enclosure(std::clamp(side.lo() + share * side.width(), side.lo(), side.hi()));
+          at.sides[(*at.free)[k]] = Enclosure(std::clamp(side.lo() + share * side.width(), side.lo(), side.hi()));
         }
         if (!parts_.bound(at, kSteps) || signs_of(at.range) != std::optional(a.parts[p].signs)) continue;
         classes_.unite(first_[c] + p, first_[d] + q);
         return;
       }
     });
-  }
-
-  static bool is_end(const Problem& problem, const Condition& c) {
-    if (c.implied) return false;
-    if (c.variable < 0) return true;
-    const Variable& v = problem.system().variables[static_cast<std::size_t>(c.variable)];
-    return !(v.kind == VariableKind::length && v.lower == v.upper);
   }
 
   static constexpr int kSteps = 3, kHalvings = 4, kHalvingsElsewhere = 16;
@@ -408,7 +381,7 @@ class Bound {
   std::vector<Row> rows_;
   PieceSheets sheets_;
   SignParts parts_{whole_, rows_};
-  int threads_;
+  ThreadArena arena_;
   std::vector<std::vector<const FreeSides*>> cells_of_;  // of each sheet
   std::vector<CellOfPiece> cells_;
   std::vector<std::size_t> first_;  // of each cell the number of its first part

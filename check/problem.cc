@@ -2,8 +2,6 @@
 
 #include <gmpxx.h>
 
-#include <algorithm>
-
 namespace corank::check {
 namespace {
 
@@ -31,7 +29,7 @@ Problem::Problem(const System& system, const std::vector<ReductionStep>& reducti
   contradiction_ = reduced.contradiction;
   kept_ = reduced.kept;
   place_.assign(system.variables.size(), -1);
-  for (std::size_t k = 0; k < kept_.size(); ++k) place_[static_cast<std::size_t>(kept_[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < kept_.size(); ++k) place_[kept_[k]] = static_cast<int>(k);
   std::vector<Terms> sources;
   for (const Polynomial& f : system.equations)
     sources.emplace_back(f, system.equations.size() <= system.variables.size() ? system.coefficient_tolerance : 0);
@@ -45,7 +43,7 @@ Problem::Problem(const System& system, const std::vector<ReductionStep>& reducti
   implied_upper_.assign(kept_.size(), 0);
   for (int j = 0; j < system.size(); ++j) {
     stop.poll();
-    const auto& value = reduced.values[static_cast<std::size_t>(j)];
+    const auto& value = reduced.values[j];
     if (value) values_.push_back({j, Row(*value, place_)});
     for (const int sign : {-1, 1}) add_domain(j, value, sign);
   }
@@ -54,7 +52,7 @@ Problem::Problem(const System& system, const std::vector<ReductionStep>& reducti
 
 // sign 1: upper − x ≥ 0, sign −1: x − lower ≥ 0.
 void Problem::add_domain(int variable, const std::optional<Terms>& value, int sign) {
-  const Variable& v = system_.variables[static_cast<std::size_t>(variable)];
+  const Variable& v = system_.variables[variable];
   const ExactNumber& end = sign > 0 ? v.upper : v.lower;
   const Terms difference = (value ? *value : variable_as_terms(variable)) - end;
   bool holds = implied_.holds(variable, end, sign);
@@ -69,13 +67,25 @@ void Problem::add_domain(int variable, const std::optional<Terms>& value, int si
       image = {affine->variable, is_lower ? own.enclose().lo() : own.enclose().hi(), is_lower};
     }
   }
-  if (!value) (sign > 0 ? implied_upper_ : implied_lower_)[static_cast<std::size_t>(place(variable))] = holds;
+  if (!value) (sign > 0 ? implied_upper_ : implied_lower_)[place(variable)] = holds;
   conditions_.push_back({Row(without_denominators(sign > 0 ? -difference : difference), place_), holds, variable, image});
+}
+
+Sides Problem::kept(const Box& box) const {
+  Sides x;
+  for (const int j : kept_) x.emplace_back(box[j]);
+  return x;
+}
+
+bool Problem::is_end(const Condition& c) const {
+  if (c.implied || c.variable < 0) return !c.implied;
+  const Variable& v = system_.variables[c.variable];
+  return !(v.kind == VariableKind::length && v.lower == v.upper);
 }
 
 bool Problem::clip_to_implied(Sides& x) const {
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const Variable& v = system_.variables[static_cast<std::size_t>(kept_[k])];
+    const Variable& v = system_.variables[kept_[k]];
     if (implied_lower_[k] && !x[k].intersect(Enclosure::hull(Enclosure(v.lower), Enclosure(kInfinity)))) return false;
     if (implied_upper_[k] && !x[k].intersect(Enclosure::hull(Enclosure(v.upper), Enclosure(-kInfinity)))) return false;
   }
@@ -85,7 +95,7 @@ bool Problem::clip_to_implied(Sides& x) const {
 Sides Problem::domain() const {
   Sides x;
   for (const int j : kept_) {
-    const Variable& v = system_.variables[static_cast<std::size_t>(j)];
+    const Variable& v = system_.variables[j];
     x.push_back(Enclosure::hull(Enclosure(v.lower), Enclosure(v.upper)));
   }
   return x;

@@ -34,11 +34,13 @@ class Problem {
   const StopFlag& stop() const { return stop_; }
   int size() const { return static_cast<int>(kept_.size()); }
   const std::vector<int>& kept() const { return kept_; }
-  int place(int variable) const { return place_[static_cast<std::size_t>(variable)]; }  ///< among the kept, −1: eliminated
+  int place(int variable) const { return place_[variable]; }  ///< among the kept, −1: eliminated
   const std::vector<int>& places() const { return place_; }
   const std::vector<Row>& equations() const { return equations_; }
   const std::vector<Row>& implied() const { return implied_equations_; }  ///< rows that vanish where all equations do
   const std::vector<Terms>& terms() const { return terms_; }  ///< of the equations, by the variables' own indices
+  /// Of a box in all variables, the sides that were kept.
+  Sides kept(const Box& box) const;
   bool contradiction() const { return contradiction_; }
   /// Eliminated variables' values.
   struct Value {
@@ -48,6 +50,8 @@ class Problem {
   const std::vector<Value>& values() const { return values_; }
   /// Both sides of every domain, then the inequalities.
   const std::vector<Condition>& conditions() const { return conditions_; }
+  /// May a solution in the domain come to where it is 0? Not if the equations imply it, or of a length of one value.
+  bool is_end(const Condition& c) const;
   /// Intersects with the domains that the equations imply: no solution is lost. False: that is empty.
   bool clip_to_implied(Sides& x) const;
   /// The domain of the kept variables, enclosed.

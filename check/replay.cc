@@ -7,7 +7,6 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <stdexcept>
 
 #include "corank/check/search.h"
 
@@ -52,7 +51,7 @@ class Script {
   }
   /// Of a split or cut: the beginnings of its parts and the end of the last.
   const Cursor* parts(const Cursor& at) const {
-    const auto found = std::lower_bound(branches_.begin(), branches_.end(), std::make_pair(at.step, std::size_t{0}));
+    const auto found = std::ranges::lower_bound(branches_, std::make_pair(at.step, std::size_t{0}));
     return starts_.data() + found->second;
   }
 
@@ -60,21 +59,20 @@ class Script {
   [[noreturn]] void refuse(const std::string& reason) const { throw Malformed{cursor_.step, reason}; }
 
   void check_values() const {
-    const auto n = static_cast<std::size_t>(problem_.size());
+    const std::size_t n = problem_.size();
     for (const auto& root : proof_.roots)
       if (root.size() != n ||
-          !std::all_of(root.begin(), root.end(), [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); }))
+          !std::ranges::all_of(root, [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); }))
         refuse("a root does not have one bounded side for each variable that was kept");
     const auto within = [](const std::vector<int>& list, std::size_t size) {
-      return std::all_of(list.begin(), list.end(), [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < size; });
+      return std::ranges::all_of(list, [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < size; });
     };
     for (const Proof::Combination& c : proof_.combinations)
       if (c.equations.size() != c.dependent.size() || c.y.size() != c.dependent.size() * c.dependent.size() ||
           !within(c.equations, problem_.equations().size()) || !within(c.dependent, n) ||
-          !std::all_of(c.y.begin(), c.y.end(), [](float y) { return std::isfinite(y); }))
+          !std::ranges::all_of(c.y, [](float y) { return std::isfinite(y); }))
         refuse("a combination is malformed");
-    if (std::any_of(proof_.reals.begin(), proof_.reals.end(), [](double x) { return std::isnan(x); }))
-      refuse("a value is not a number");
+    if (std::ranges::any_of(proof_.reals, [](double x) { return std::isnan(x); })) refuse("a value is not a number");
   }
 
   std::size_t count(const Cursor& at, std::size_t k) const {
@@ -108,7 +106,7 @@ class Script {
       if (const int i = integer(cursor_, k); i < 0 || static_cast<std::size_t>(i) >= size)
         refuse("an index is out of range");
     };
-    const auto n = static_cast<std::size_t>(problem_.size());
+    const std::size_t n = problem_.size();
     switch (step(cursor_)) {
       case Step::row:
         if (integer(cursor_, 0) < 0) {
@@ -215,8 +213,7 @@ class Replay {
     }
     for (const Search& search : searches_) result.tally.searched += search.searched();
     result.tally.leaves = leaves_;
-    std::stable_sort(failures_.begin(), failures_.end(),
-                     [](const Failure& a, const Failure& b) { return a.index < b.index; });
+    std::ranges::stable_sort(failures_, [](const Failure& a, const Failure& b) { return a.index < b.index; });
     result.failures = std::move(failures_);
     result.interrupted = stopped_;
     result.tally.verified = result.failures.empty() && !stopped_;
@@ -290,8 +287,7 @@ class Replay {
         }
         case Step::root:
           ++leaves_;
-          if (!state.empty &&
-              !search.confine(state.x, proof_.roots[static_cast<std::size_t>(script.integer(at, 0))], state.empty))
+          if (!state.empty && !search.confine(state.x, proof_.roots[script.integer(at, 0)], state.empty))
             fail(at.step, "it does not lie in the root that it is referred to");
           return;
       }
@@ -300,13 +296,13 @@ class Replay {
 
   // Do the box's sides of eliminated variables hold their values over x? Of a sheet's box that is checked with its sheet.
   bool holds_values(const Sides& x, int i) const {
-    const CoverBox& box = cover_.boxes[static_cast<std::size_t>(i)];
+    const CoverBox& box = cover_.boxes[i];
     if (box.verdict == Verdict::regular || box.verdict == Verdict::isolated || box.verdict == Verdict::boundary) return true;
-    return std::all_of(problem_.values().begin(), problem_.values().end(), [&](const Problem::Value& v) {
-      const Variable& variable = problem_.system().variables[static_cast<std::size_t>(v.variable)];
+    return std::ranges::all_of(problem_.values(), [&](const Problem::Value& v) {
+      const Variable& variable = problem_.system().variables[v.variable];
       Enclosure value = v.row.value(x);
       return !value.intersect(Enclosure::hull(Enclosure(variable.lower), Enclosure(variable.upper))) ||
-             value.inside(box.box[static_cast<std::size_t>(v.variable)]);
+             value.inside(box.box[v.variable]);
     });
   }
 
@@ -314,13 +310,13 @@ class Replay {
   // which the equations say little, what the box's own claim is about: for every value of its free variables there is one
   // solution in its region, and it is in the box.
   std::vector<Interval> bounds_of(int i) const {
-    const CoverBox& box = cover_.boxes[static_cast<std::size_t>(i)];
+    const CoverBox& box = cover_.boxes[i];
     const bool on_motion = box.motion >= 0 && box.region >= 0 && box.verdict == Verdict::regular;
-    const Box& dependent = on_motion ? cover_.regions.at(static_cast<std::size_t>(box.region)) : box.box;
+    const Box& dependent = on_motion ? cover_.regions.at(box.region) : box.box;
     std::vector<Interval> bounds;
     for (const int j : problem_.kept()) {
-      const bool is_free = std::find(box.free.begin(), box.free.end(), j) != box.free.end();
-      bounds.push_back((is_free ? box.box : dependent)[static_cast<std::size_t>(j)]);
+      const bool is_free = std::ranges::find(box.free, j) != box.free.end();
+      bounds.push_back((is_free ? box.box : dependent)[j]);
     }
     return bounds;
   }
@@ -333,7 +329,7 @@ class Replay {
       const double middle = 0.5 * state.kept[j].lo() + 0.5 * state.kept[j].hi();
       center.push_back(std::clamp(middle, state.x[j].lo(), state.x[j].hi()));
     }
-    return search.newton(state.x, combinations_[static_cast<std::size_t>(k)], center);
+    return search.newton(state.x, combinations_[k], center);
   }
 
   // False: not shown that the solutions lie between the bounds.
@@ -341,7 +337,7 @@ class Replay {
     std::vector<Interval> kept = state.kept;
     for (std::size_t k = 0; k < static_cast<std::size_t>(script.integer(at, 0)); ++k) {
       const int side = script.integer(at, 1 + k);
-      Interval& bound = kept[static_cast<std::size_t>(side / 2)];
+      Interval& bound = kept[side / 2];
       const double place = script.real(at, k);
       if (!bound.contains(place)) continue;  // outside the former box: says nothing
       bound = side % 2 == 1 ? Interval(bound.lo(), place) : Interval(place, bound.hi());
@@ -355,7 +351,7 @@ class Replay {
   }
 
   void branch(const Script& script, const Cursor& at, State state) {
-    const auto v = static_cast<std::size_t>(script.integer(at, 0));
+    const std::size_t v = script.integer(at, 0);
     const bool is_split = script.step(at) == Step::split;
     const std::size_t places = is_split ? 1 : static_cast<std::size_t>(script.integer(at, 1));
     const Cursor* parts = script.parts(at);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "corank/core/box.h"
 
 namespace corank::check {
 namespace {
@@ -19,19 +22,21 @@ Enclosure wave_slope(const Enclosure& at_middle, const Enclosure& over_hull, con
 
 Row::Row(const Terms& f, const std::vector<int>& place) {
   for (const auto& [factors, c] : f.list())
-    for (const Factor& factor : factors) columns_.push_back(place[static_cast<std::size_t>(factor.variable)]);
-  std::sort(columns_.begin(), columns_.end());
+    for (const Factor& factor : factors) columns_.push_back(place[factor.variable]);
+  std::ranges::sort(columns_);
   columns_.erase(std::unique(columns_.begin(), columns_.end()), columns_.end());
   for (const auto& [factors, c] : f.list()) {
     Term t{c.range, c.range.mid(), {}};
     for (const Factor& factor : factors) {
-      const int variable = place[static_cast<std::size_t>(factor.variable)];
-      const auto column = std::lower_bound(columns_.begin(), columns_.end(), variable) - columns_.begin();
+      const int variable = place[factor.variable];
+      const auto column = std::ranges::lower_bound(columns_, variable) - columns_.begin();
       t.parts.push_back({variable, factor.power, static_cast<int>(column), factor.function});
     }
     terms_.push_back(std::move(t));
   }
 }
+
+Row::Row(const Polynomial& f, int variables, double tolerance) : Row(Terms(f, tolerance), all_but({}, variables)) {}
 
 Enclosure Row::value(const Part& p, const Enclosure& x) {
   if (p.function == Function::sine) return sine(x);
@@ -62,7 +67,7 @@ Enclosure Row::slope(const Part& p, const Enclosure& x, const Enclosure& c) {
 Enclosure Row::value(const Term& t, const Sides& x) {
   Enclosure product = t.c;
   for (const Part& p : t.parts) {
-    const Enclosure& side = x[static_cast<std::size_t>(p.variable)];
+    const Enclosure& side = x[p.variable];
     if (p.power == 1 && p.function == Function::identity) {
       product *= side;
     } else {
@@ -84,21 +89,21 @@ void Row::slopes(const Sides& x, const Sides& c, Sides& s) const {
     const std::size_t n = t.parts.size();
     if (n == 2 && t.parts[0].power == 1 && t.parts[1].power == 1) {
       for (std::size_t i = 0; i < 2; ++i) {
-        const auto other = static_cast<std::size_t>(t.parts[1 - i].variable);
-        s[static_cast<std::size_t>(t.parts[i].column)].add_product(t.c, Enclosure(0.5) * (x[other] + c[other]));
+        const std::size_t other = t.parts[1 - i].variable;
+        s[t.parts[i].column].add_product(t.c, Enclosure(0.5) * (x[other] + c[other]));
       }
       continue;
     }
     // Π fᵢ(xᵢ) − Π fᵢ(cᵢ) = Σᵢ Π_{j<i} fⱼ(cⱼ) · (fᵢ(xᵢ) − fᵢ(cᵢ)) · Π_{j>i} fⱼ(xⱼ)
     for (std::size_t i = 0; i < n; ++i) {
-      const auto own = static_cast<std::size_t>(t.parts[i].variable);
+      const std::size_t own = t.parts[i].variable;
       Enclosure product = t.c * slope(t.parts[i], x[own], c[own]);
       for (std::size_t j = 0; j < n; ++j) {
         if (j == i) continue;
-        const auto v = static_cast<std::size_t>(t.parts[j].variable);
+        const std::size_t v = t.parts[j].variable;
         product *= value(t.parts[j], j < i ? c[v] : x[v]);
       }
-      s[static_cast<std::size_t>(t.parts[i].column)] += product;
+      s[t.parts[i].column] += product;
     }
   }
 }
@@ -107,10 +112,10 @@ void Row::derivatives(const Sides& x, Sides& s) const {
   s.assign(columns_.size(), Enclosure());
   for (const Term& t : terms_)
     for (const Part& p : t.parts) {
-      Enclosure product = t.c * derivative(p, x[static_cast<std::size_t>(p.variable)]);
+      Enclosure product = t.c * derivative(p, x[p.variable]);
       for (const Part& q : t.parts)
-        if (&q != &p) product *= value(q, x[static_cast<std::size_t>(q.variable)]);
-      s[static_cast<std::size_t>(p.column)] += product;
+        if (&q != &p) product *= value(q, x[q.variable]);
+      s[p.column] += product;
     }
 }
 
@@ -130,7 +135,7 @@ double Row::approximate(const std::vector<double>& x) const {
   double sum = 0;
   for (const Term& t : terms_) {
     double product = t.approximate;
-    for (const Part& p : t.parts) product *= approximate(p, x[static_cast<std::size_t>(p.variable)]);
+    for (const Part& p : t.parts) product *= approximate(p, x[p.variable]);
     sum += product;
   }
   return sum;
@@ -140,19 +145,19 @@ void Row::approximate(const std::vector<double>& x, std::vector<double>& s) cons
   s.assign(columns_.size(), 0.0);
   for (const Term& t : terms_)
     for (const Part& p : t.parts) {
-      double product = t.approximate * approximate_derivative(p, x[static_cast<std::size_t>(p.variable)]);
+      double product = t.approximate * approximate_derivative(p, x[p.variable]);
       for (const Part& q : t.parts)
-        if (&q != &p) product *= approximate(q, x[static_cast<std::size_t>(q.variable)]);
-      s[static_cast<std::size_t>(p.column)] += product;
+        if (&q != &p) product *= approximate(q, x[q.variable]);
+      s[p.column] += product;
     }
 }
 
 bool Row::invert(const Term& t, const Enclosure& image, Sides& x) {
   for (const Part& p : t.parts) {
-    Enclosure& side = x[static_cast<std::size_t>(p.variable)];
+    Enclosure& side = x[p.variable];
     Enclosure others = t.c;
     for (const Part& q : t.parts)
-      if (&q != &p) others *= value(q, x[static_cast<std::size_t>(q.variable)]);
+      if (&q != &p) others *= value(q, x[q.variable]);
     if (others.is_zero()) continue;
     const auto values = divide(image, others, value(p, side));
     if (!values) return false;
@@ -185,7 +190,7 @@ bool Row::project(Sides& x, bool equation) const {
 }
 
 bool Row::is_linear() const {
-  return std::all_of(terms_.begin(), terms_.end(), [](const Term& t) {
+  return std::ranges::all_of(terms_, [](const Term& t) {
     return t.parts.empty() || (t.parts.size() == 1 && t.parts[0].power == 1 && t.parts[0].function == Function::identity);
   });
 }
@@ -193,29 +198,75 @@ bool Row::is_linear() const {
 bool Row::project_by_slopes(Sides& x) const {
   Sides c = x, s;
   for (const int j : columns_) {
-    const double mid = x[static_cast<std::size_t>(j)].mid();
+    const double mid = x[j].mid();
     if (!std::isfinite(mid)) return true;
-    c[static_cast<std::size_t>(j)] = Enclosure(mid);
+    c[j] = Enclosure(mid);
   }
   slopes(x, c, s);
   const Enclosure at_center = value(c);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
-    Enclosure& side = x[static_cast<std::size_t>(columns_[k])];
-    const Enclosure& middle = c[static_cast<std::size_t>(columns_[k])];
+    Enclosure& side = x[columns_[k]];
+    const Enclosure& middle = c[columns_[k]];
     Enclosure others = at_center;
     for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (i != k)
-        others.add_product(s[i], x[static_cast<std::size_t>(columns_[i])] - c[static_cast<std::size_t>(columns_[i])]);
+      if (i != k) others.add_product(s[i], x[columns_[i]] - c[columns_[i]]);
     const auto offset = divide(Enclosure::hull(-others, Enclosure(kInfinity)), s[k], side - middle);
     if (!offset || !side.intersect(*offset + middle)) return false;
   }
   return true;
 }
 
+RowMatrix entries_of(const PolynomialMatrix& matrix, int variables, double tolerance) {
+  RowMatrix rows(matrix.rows);
+  for (int k = 0; k < matrix.rows * matrix.columns; ++k)
+    rows[k / matrix.columns].emplace_back(matrix.entries[k], variables, tolerance);
+  return rows;
+}
+
+std::vector<Sides> values(const RowMatrix& matrix, const Sides& x) {
+  std::vector<Sides> result;
+  for (const std::vector<Row>& row : matrix) {
+    result.emplace_back();
+    for (const Row& entry : row) result.back().push_back(entry.value(x));
+  }
+  return result;
+}
+
 std::vector<double> domain_lengths(const System& system) {
   std::vector<double> lengths;
   for (const Variable& v : system.variables) lengths.push_back(v.domain.width() > 0 ? v.domain.width() : 1);
   return lengths;
+}
+
+std::optional<std::array<Sides, 2>> halved(const Sides& x, const std::vector<int>& sides,
+                                           const std::vector<double>& lengths) {
+  int widest = -1;
+  double width = 0;
+  for (const int j : sides)
+    if (const Enclosure& side = x[j]; side.width() > width * lengths[j] && side.lo() < side.mid() && side.mid() < side.hi())
+      width = side.width() / lengths[j], widest = j;
+  if (widest < 0) return std::nullopt;
+  const double from = x[widest].lo(), middle = x[widest].mid(), to = x[widest].hi();
+  std::array<Sides, 2> halves{x, x};
+  halves[0][widest] = Enclosure(from, middle);
+  halves[1][widest] = Enclosure(middle, to);
+  return halves;
+}
+
+bool shown_in_parts(Sides x, const std::vector<int>& sides, const std::vector<double>& lengths, int most_parts,
+                    const StopFlag& stop, const std::function<bool(Sides&)>& shown) {
+  std::vector<Sides> open{std::move(x)};
+  for (int parts = 0; !open.empty(); ++parts) {
+    stop.poll();
+    Sides part = std::move(open.back());
+    open.pop_back();
+    if (shown(part)) continue;
+    auto both = parts > most_parts ? std::nullopt : halved(part, sides, lengths);
+    if (!both) return false;
+    open.push_back(std::move((*both)[1]));
+    open.push_back(std::move((*both)[0]));
+  }
+  return true;
 }
 
 }  // namespace corank::check

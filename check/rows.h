@@ -1,9 +1,13 @@
 // Polynomials and sines over boxes of Enclosures: values, slopes, derivatives, projections.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "corank/check/terms.h"
+#include "corank/core/singularity_types.h"
 
 namespace corank::check {
 
@@ -14,6 +18,8 @@ class Row {
  public:
   /// place[j]: of variable j among the kept ones.
   Row(const Terms& f, const std::vector<int>& place);
+  /// Over all variables, so many.
+  Row(const Polynomial& f, int variables, double tolerance = 0);
 
   const std::vector<int>& columns() const { return columns_; }  ///< the variables of f, ascending
 
@@ -56,7 +62,21 @@ class Row {
   std::vector<int> columns_;
 };
 
+/// The entries of a matrix over all variables, row by row.
+using RowMatrix = std::vector<std::vector<Row>>;
+RowMatrix entries_of(const PolynomialMatrix& matrix, int variables, double tolerance = 0);
+std::vector<Sides> values(const RowMatrix& matrix, const Sides& x);
+
 /// Of each variable the width of its domain, 1 where it has none: by their share of it sides of unlike units compare.
 std::vector<double> domain_lengths(const System& system);
+
+/// The halves of x, cut in the middle of the widest of these sides that can be cut, in lengths; nothing where none can.
+std::optional<std::array<Sides, 2>> halved(const Sides& x, const std::vector<int>& sides,
+                                           const std::vector<double>& lengths);
+
+/// Is it `shown` of x, or else of all parts into which it is halved so, so many at most? It may shrink a part to what
+/// matters.
+bool shown_in_parts(Sides x, const std::vector<int>& sides, const std::vector<double>& lengths, int most_parts,
+                    const StopFlag& stop, const std::function<bool(Sides&)>& shown);
 
 }  // namespace corank::check

@@ -24,10 +24,9 @@ double total_width(const Sides& x) {
 
 bool Search::project(Sides& x, int row) const {
   const auto m = static_cast<int>(problem_.equations().size());
-  if (row < 0) return problem_.implied()[static_cast<std::size_t>(-1 - row)].project(x, true);
-  if (row < m) return problem_.equations()[static_cast<std::size_t>(row)].project(x, true);
-  return std::all_of(problem_.conditions().begin(), problem_.conditions().end(),
-                     [&](const Condition& c) { return c.row.project(x, false); });
+  if (row < 0) return problem_.implied()[-1 - row].project(x, true);
+  if (row < m) return problem_.equations()[row].project(x, true);
+  return std::ranges::all_of(problem_.conditions(), [&](const Condition& c) { return c.row.project(x, false); });
 }
 
 bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<double>& center) {
@@ -36,7 +35,7 @@ bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<doub
   std::vector<Sides> slopes(r);
   Sides residual(r), at_center;
   for (std::size_t b = 0; b < r; ++b) {
-    const Row& f = problem_.equations()[static_cast<std::size_t>(p.equations[b])];
+    const Row& f = problem_.equations()[p.equations[b]];
     f.slopes(x, c, slopes[b]);
     at_center.push_back(f.value(c));
   }
@@ -49,9 +48,8 @@ bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<doub
       const double y = p.y[a * r + b];
       if (y == 0) continue;
       sum.add_product(y, at_center[b]);
-      const auto& columns = problem_.equations()[static_cast<std::size_t>(p.equations[b])].columns();
-      for (std::size_t k = 0; k < columns.size(); ++k)
-        product[static_cast<std::size_t>(columns[k])].add_product(y, slopes[b][k]);
+      const auto& columns = problem_.equations()[p.equations[b]].columns();
+      for (std::size_t k = 0; k < columns.size(); ++k) product[columns[k]].add_product(y, slopes[b][k]);
     }
     products.push_back(std::move(product));
     sums.push_back(std::move(sum));
@@ -66,7 +64,7 @@ bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<doub
   };
   std::vector<bool> is_free(n, true);
   for (std::size_t a = 0; a < r; ++a) {
-    const auto d = static_cast<std::size_t>(p.dependent[a]);
+    const std::size_t d = p.dependent[a];
     is_free[d] = false;
     if (!solve_for(a, d)) return false;
   }
@@ -146,7 +144,7 @@ int Search::widest(const Sides& x) const {
   for (const Row& f : problem_.equations()) {
     f.derivatives(x, entries);
     for (std::size_t k = 0; k < entries.size(); ++k) {
-      double& w = weight[static_cast<std::size_t>(f.columns()[k])];
+      double& w = weight[f.columns()[k]];
       w = std::max(w, entries[k].mag());
     }
   }
@@ -163,7 +161,7 @@ int Search::widest(const Sides& x) const {
 std::optional<std::array<Sides, 2>> Search::halves(const Sides& x) const {
   const int j = widest(x);
   if (j < 0) return std::nullopt;
-  const auto v = static_cast<std::size_t>(j);
+  const std::size_t v = j;
   const double middle = x[v].lo() + 0.47 * (x[v].hi() - x[v].lo());
   std::array<Sides, 2> parts{x, x};
   if (!parts[0][v].intersect(Enclosure(-kInfinity, middle)) || !parts[1][v].intersect(Enclosure(middle, kInfinity)))

@@ -1,7 +1,6 @@
 #include "corank/check/self_motion.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "corank/check/krawczyk.h"
 
@@ -11,7 +10,7 @@ namespace {
 constexpr int kMostTries = 4096;
 
 bool is_linear_and_rational(const Polynomial& f) {
-  return std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+  return std::ranges::all_of(f.monomials, [](const Monomial& m) {
     return m.coefficient.is_rational() && m.degree() <= 1 && !m.is_trigonometric();
   });
 }
@@ -20,33 +19,16 @@ bool is_linear_and_rational(const Polynomial& f) {
 // finds no more.
 std::vector<Row> independent(const std::vector<Row>& equations, const std::vector<int>& dependent,
                              const std::vector<double>& at) {
-  std::vector<std::vector<double>> rows;
+  std::vector<std::vector<double>> t;
   for (const Row& f : equations) {
     std::vector<double> entries, row(at.size(), 0.0);
     f.approximate(at, entries);
-    for (std::size_t k = 0; k < f.columns().size(); ++k) row[static_cast<std::size_t>(f.columns()[k])] = entries[k];
-    rows.push_back(std::move(row));
+    for (std::size_t k = 0; k < entries.size(); ++k) row[f.columns()[k]] = entries[k];
+    t.emplace_back();
+    for (const int d : dependent) t.back().push_back(row[d]);
   }
-  std::vector<bool> taken(equations.size(), false), done(at.size(), false);
   std::vector<Row> result;
-  for (std::size_t step = 0; step < dependent.size(); ++step) {
-    double best = 0;
-    std::size_t row = 0, column = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (const int d : dependent) {
-        const double size = std::fabs(rows[i][static_cast<std::size_t>(d)]);
-        if (!taken[i] && !done[static_cast<std::size_t>(d)] && size > best)
-          best = size, row = i, column = static_cast<std::size_t>(d);
-      }
-    if (best == 0) break;
-    taken[row] = done[column] = true;
-    result.push_back(equations[row]);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double factor = rows[i][column] / rows[row][column];
-      if (taken[i] || factor == 0) continue;
-      for (std::size_t j = 0; j < at.size(); ++j) rows[i][j] -= factor * rows[row][j];
-    }
-  }
+  for (const std::size_t row : pivots(std::move(t), dependent.size()).rows) result.push_back(equations[row]);
   return result;
 }
 
@@ -90,8 +72,7 @@ MotionCheck::MotionCheck(const Problem& problem, const SelfMotionRecord& record)
   for (std::size_t i = 0; i < rest.size(); ++i) {
     if (!rest[i].is_exact()) fault_ = "an equation has a tolerance";
     if (rest[i].list().empty()) continue;
-    if (std::any_of(classes.begin(), classes.end(), [&](std::size_t g) { return rest[i].is_multiple_of(rest[g]); }))
-      continue;
+    if (std::ranges::any_of(classes, [&](std::size_t g) { return rest[i].is_multiple_of(rest[g]); })) continue;
     classes.push_back(i);
     rows_.push_back(problem.equations()[i]);
   }
@@ -105,12 +86,12 @@ MotionCheck::MotionCheck(const Problem& problem, const SelfMotionRecord& record)
 
 std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
   std::vector<unsigned char> is_free(problem_.system().variables.size(), 0);
-  for (const int j : box.free) is_free[static_cast<std::size_t>(j)] = 1;
+  for (const int j : box.free) is_free[j] = 1;
   std::vector<int> dependent, free;
   Sides all;
   std::vector<double> middle;
   for (std::size_t k = 0; k < problem_.kept().size(); ++k) {
-    const auto v = static_cast<std::size_t>(problem_.kept()[k]);
+    const std::size_t v = problem_.kept()[k];
     (is_free[v] ? free : dependent).push_back(static_cast<int>(k));
     all.emplace_back(is_free[v] ? box.box[v] : region[v]);
     middle.push_back(box.box[v].mid());
@@ -120,7 +101,7 @@ std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
   std::vector<std::vector<Row>> choices{equations};
   for (std::size_t without = 0; without < equations.size(); ++without) {
     choices.push_back(equations);
-    choices.back().erase(choices.back().begin() + static_cast<std::ptrdiff_t>(without));
+    choices.back().erase(choices.back().begin() + without);
   }
   std::size_t best = 0;
   std::vector<Sides> open{all};
@@ -128,7 +109,7 @@ std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
     problem_.stop().poll();
     const Sides x = std::move(open.back());
     open.pop_back();
-    for (const int f : free) middle[static_cast<std::size_t>(f)] = x[static_cast<std::size_t>(f)].mid();
+    for (const int f : free) middle[f] = x[f].mid();
     const auto injective = [&](const std::vector<Row>& from) {
       ++tries;
       const std::vector<Row> chosen = independent(from, dependent, middle);
@@ -139,16 +120,15 @@ std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
       return false;
     };
     if (injective(choices[best])) continue;
-    const auto other = std::find_if(choices.begin(), choices.end(), injective);
+    const auto other = std::ranges::find_if(choices, injective);
     if (other != choices.end()) {
-      best = static_cast<std::size_t>(other - choices.begin());
+      best = other - choices.begin();
       continue;
     }
     if (tries > kMostTries) return "uniqueness along its self-motion is not shown";
     std::size_t widest = x.size();
     for (const int f : free)
-      if (widest == x.size() || x[static_cast<std::size_t>(f)].width() > x[widest].width())
-        widest = static_cast<std::size_t>(f);
+      if (widest == x.size() || x[f].width() > x[widest].width()) widest = static_cast<std::size_t>(f);
     if (widest == x.size()) return "uniqueness along its self-motion is not shown";
     for (const bool upper : {false, true}) {
       Sides part = x;

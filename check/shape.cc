@@ -2,24 +2,17 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
-#include <stdexcept>
 
 #include "corank/check/classes.h"
 #include "corank/check/distinct.h"
 #include "corank/check/inertia.h"
 #include "corank/check/linking.h"
 #include "corank/check/search.h"
+#include "corank/core/box.h"
 
 namespace corank::check {
 namespace {
-
-std::vector<int> all_variables(const System& system) {
-  std::vector<int> list(static_cast<std::size_t>(system.size()));
-  std::iota(list.begin(), list.end(), 0);
-  return list;
-}
 
 class ShapeCheck {
  public:
@@ -27,12 +20,7 @@ class ShapeCheck {
       : system_(system), shape_(shape), heights_(heights), options_(options), stop_(options.ended) {}
 
   ShapeReport run() {
-    const NearestRounding nearest;
-    try {
-      check_all();
-    } catch (const Stopped&) {
-      report_.interrupted = true;
-    }
+    report_.interrupted = !finishes([&] { check_all(); });
     if (report_.interrupted) report_.stage = stage_;
     return std::move(report_);
   }
@@ -57,8 +45,8 @@ class ShapeCheck {
         return fail("a box is not regular: the set is not shown to be smooth");
     const std::size_t n = system_.variables.size();
     for (const SheetBridge& b : shape_.bridges)
-      if (b.region.size() != n || !std::all_of(b.region.begin(), b.region.end(),
-                                               [](const Interval& s) { return s.is_bounded() && s.lo() <= s.hi(); }))
+      if (b.region.size() != n ||
+          !std::ranges::all_of(b.region, [](const Interval& s) { return s.is_bounded() && s.lo() <= s.hi(); }))
         return fail("a bridge does not have one bounded side for each variable");
     const Problem problem(system_, cover.reduction, stop_);
     enter("the components");
@@ -105,13 +93,13 @@ class ShapeCheck {
         continue;
       }
       ++report_.links;
-      classes.unite(static_cast<std::size_t>(shape_.links[k].first), static_cast<std::size_t>(shape_.links[k].second));
+      classes.unite(shape_.links[k].first, shape_.links[k].second);
     }
     return report_.failures.empty();
   }
 
   std::size_t class_of_box(const Linking& linking, Classes& classes, std::size_t box) {
-    return classes.of(static_cast<std::size_t>(linking.sheet_of_box(box)));
+    return classes.of(linking.sheet_of_box(box));
   }
 
   void count_groups(const Linking& linking, Classes& classes, const Problem& problem) {
@@ -126,14 +114,12 @@ class ShapeCheck {
     Search search(problem);
     const auto apart = [&](std::size_t a, std::size_t b) {
       stop_.poll();
-      const auto first = static_cast<std::size_t>(linking.sheet_of_box(a)),
-                 second = static_cast<std::size_t>(linking.sheet_of_box(b));
+      const std::size_t first = linking.sheet_of_box(a), second = linking.sheet_of_box(b);
       if (groups.of(first) == groups.of(second)) return true;
-      Sides common;
-      for (const int j : problem.kept()) {
-        common.emplace_back(boxes[a].box[static_cast<std::size_t>(j)]);
-        if (!common.back().intersect(Enclosure(boxes[b].box[static_cast<std::size_t>(j)]))) return true;
-      }
+      Sides common = problem.kept(boxes[a].box);
+      const Sides other = problem.kept(boxes[b].box);
+      for (std::size_t k = 0; k < common.size(); ++k)
+        if (!common[k].intersect(other[k])) return true;
       if (search.is_empty(std::move(common))) {
         ++report_.apart;
       } else {
@@ -143,8 +129,7 @@ class ShapeCheck {
     };
     meeting_pairs(sides, apart, 1);
     std::set<std::size_t> distinct;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-      distinct.insert(groups.of(static_cast<std::size_t>(linking.sheet_of_box(i))));
+    for (std::size_t i = 0; i < boxes.size(); ++i) distinct.insert(class_of_box(linking, groups, i));
     report_.at_least = static_cast<int>(distinct.size());
   }
 
@@ -155,8 +140,7 @@ class ShapeCheck {
       for (const Condition& c : problem.conditions()) {
         if (c.implied || holds_strictly(problem, c, shape_.space.boxes[i].box)) continue;
         return fail("it is not shown that the set is closed: box " + std::to_string(i + 1) + " may come to " +
-                    (c.variable < 0 ? std::string("an inequality")
-                                    : "an end of " + system_.variables[static_cast<std::size_t>(c.variable)].name));
+                    (c.variable < 0 ? std::string("an inequality") : "an end of " + system_.variables[c.variable].name));
       }
     report_.closed = true;
   }
@@ -164,30 +148,13 @@ class ShapeCheck {
   bool holds_strictly(const Problem& problem, const Condition& condition, const Box& box) const {
     constexpr int kMostPartsOfRange = 2000;
     Search search(problem);
-    Sides first;
     std::vector<double> lengths;
     const std::vector<double> all = domain_lengths(problem.system());
-    for (const int j : problem.kept()) {
-      first.emplace_back(box[static_cast<std::size_t>(j)]);
-      lengths.push_back(all[static_cast<std::size_t>(j)]);
-    }
-    std::vector<Sides> open{std::move(first)};
-    for (int parts = 0; !open.empty(); ++parts) {
-      stop_.poll();
-      Sides x = std::move(open.back());
-      open.pop_back();
-      if (condition.row.value(x).is_positive() || !search.contract(x) || condition.row.value(x).is_positive()) continue;
-      std::size_t widest = 0;
-      for (std::size_t j = 1; j < x.size(); ++j)
-        if (x[j].width() * lengths[widest] > x[widest].width() * lengths[j]) widest = j;
-      const double from = x[widest].lo(), middle = x[widest].mid(), to = x[widest].hi();
-      if (parts > kMostPartsOfRange || !(from < middle && middle < to)) return false;
-      open.push_back(x);
-      open.back()[widest] = Enclosure(middle, to);
-      x[widest] = Enclosure(from, middle);
-      open.push_back(std::move(x));
-    }
-    return true;
+    for (const int j : problem.kept()) lengths.push_back(all[j]);
+    const Row& row = condition.row;
+    return shown_in_parts(problem.kept(box), all_but({}, problem.size()), lengths, kMostPartsOfRange, stop_, [&](Sides& x) {
+      return row.value(x).is_positive() || !search.contract(x) || row.value(x).is_positive();
+    });
   }
 
   bool check_height(std::size_t k, const Linking& linking, Classes& classes, std::vector<int>& characteristics,
@@ -202,10 +169,9 @@ class ShapeCheck {
     for (std::size_t b = 0; b < cover.boxes.size(); ++b)
       if (!stands_for_a_point(cover.boxes[b]))
         return fail(name + ", box " + std::to_string(b + 1) + ": critical points along a set may lie in it"), false;
-    const std::vector<int> place = all_variables(critical.system);
     std::vector<Row> inside;
-    for (const Polynomial& g : critical.system.inequalities) inside.emplace_back(Terms(g, 0), place);
-    std::vector<int> by_index(static_cast<std::size_t>(shape_.space.dimension) + 1, 0);
+    for (const Polynomial& g : critical.system.inequalities) inside.emplace_back(g, critical.system.size());
+    std::vector<int> by_index(shape_.space.dimension + 1, 0);
     std::map<std::size_t, int> euler;
     bool placed = true;
     for (std::size_t p = 0; p < cover.points.size(); ++p) {
@@ -213,14 +179,13 @@ class ShapeCheck {
       const std::string which = name + ", critical point " + std::to_string(p + 1) + ": ";
       if (point.verdict != Verdict::isolated && point.verdict != Verdict::exact)
         return fail(which + "it is not shown to be one solution"), false;
-      Sides x;
-      for (const Interval& side : point.box) x.emplace_back(side);
+      const Sides x(point.box.begin(), point.box.end());
       for (const Row& g : inside)
         if (!g.value(x).is_positive()) return fail(which + "it may be counted twice"), false;
-      const std::optional<int> index = index_at(critical, place, x);
+      const std::optional<int> index = index_at(critical, x);
       if (!index || *index >= static_cast<int>(by_index.size()))
         return fail(which + "it is not shown to be nondegenerate"), false;
-      ++by_index[static_cast<std::size_t>(*index)];
+      ++by_index[*index];
       const std::optional<std::size_t> piece = class_at(linking, classes, critical.system, point.box);
       placed = placed && piece;
       if (piece) euler[*piece] += *index % 2 == 0 ? 1 : -1;
@@ -245,19 +210,11 @@ class ShapeCheck {
     return box.motion < 0 && !(box.verdict == Verdict::undecided && box.reason == Reason::degenerate_set);
   }
 
-  static std::optional<int> index_at(const CriticalSystem& critical, const std::vector<int>& place, const Sides& x) {
-    const auto values = [&](const PolynomialMatrix& m) {
-      std::vector<Sides> rows;
-      for (int i = 0; i < m.rows; ++i) {
-        rows.emplace_back();
-        for (int j = 0; j < m.columns; ++j)
-          rows.back().push_back(Row(Terms(m.entries[static_cast<std::size_t>(i * m.columns + j)], 0), place).value(x));
-      }
-      return rows;
-    };
-    const Enclosure mu = Row(Terms(critical.multiplier, 0), place).value(x);
+  static std::optional<int> index_at(const CriticalSystem& critical, const Sides& x) {
+    const auto at = [&](const PolynomialMatrix& m) { return values(entries_of(m, critical.system.size()), x); };
+    const Enclosure mu = Row(critical.multiplier, critical.system.size()).value(x);
     if (mu.has_zero()) return std::nullopt;
-    const std::optional<Inertia> inertia = inertia_on_kernel(values(critical.hessian), values(critical.jacobian));
+    const std::optional<Inertia> inertia = inertia_on_kernel(at(critical.hessian), at(critical.jacobian));
     if (!inertia) return std::nullopt;
     return mu.is_positive() ? inertia->negative : inertia->positive;
   }
@@ -269,10 +226,10 @@ class ShapeCheck {
     for (const Variable& v : system_.variables) {
       const int j = critical.find(v.name);
       if (j < 0) return std::nullopt;
-      configuration.push_back(point[static_cast<std::size_t>(j)]);
+      configuration.push_back(point[j]);
     }
     for (std::size_t i = 0; i < shape_.space.boxes.size(); ++i) {
-      const auto sheet = static_cast<std::size_t>(linking.sheet_of_box(i));
+      const std::size_t sheet = linking.sheet_of_box(i);
       if (linking.holds(sheet, configuration)) return classes.of(sheet);
     }
     return std::nullopt;
@@ -314,7 +271,7 @@ class ShapeCheck {
     } else {
       for (const int chi : of_pieces.front()) genus.push_back(1 - chi / 2);
     }
-    std::sort(genus.begin(), genus.end());
+    std::ranges::sort(genus);
     if (genus != shape_.genus) fail("the genus of its components is not what the critical points give");
   }
 
@@ -331,12 +288,11 @@ class ShapeCheck {
 
 bool ShapeReport::verified() const {
   return failures.empty() && !interrupted && space.verified() &&
-         std::all_of(heights.begin(), heights.end(), [](const Report& r) { return r.verified(); });
+         std::ranges::all_of(heights, [](const Report& r) { return r.verified(); });
 }
 
 bool ShapeReport::complete() const {
-  return verified() && space.complete() &&
-         std::all_of(heights.begin(), heights.end(), [](const Report& r) { return r.complete(); });
+  return verified() && space.complete() && std::ranges::all_of(heights, [](const Report& r) { return r.complete(); });
 }
 
 ShapeReport check_shape(const System& system, const Shape& shape, const std::vector<CriticalSystem>& heights,

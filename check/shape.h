@@ -18,7 +18,6 @@
 //                another than 0: boxes or critical points are missing
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "corank/check/checker.h"
@@ -34,7 +33,7 @@ struct CriticalSystem {
   Polynomial multiplier;
 };
 
-struct ShapeReport {
+struct ShapeReport : Findings {
   Report space;
   std::vector<Report> heights;
   std::size_t sheets = 0, links = 0;  ///< that are confirmed
@@ -42,9 +41,6 @@ struct ShapeReport {
   int at_least = 0, at_most = 0;      ///< components, as the boxes in the file show
   bool closed = false;
   std::vector<std::vector<int>> by_index;  ///< of each height
-  std::vector<std::string> failures;
-  bool interrupted = false;
-  std::string stage;
 
   /// Nothing claimed is wrong or could not be shown, as far as the boxes go that the file has.
   bool verified() const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "corank/core/box.h"
+
 namespace corank::check {
 namespace {
 
@@ -21,10 +23,7 @@ class SheetCheck {
   std::string run() {
     if (std::string fault = check_shape(); !fault.empty()) return fault;
     Sides x;
-    for (const int j : problem_.kept()) {
-      const auto v = static_cast<std::size_t>(j);
-      x.push_back(Enclosure(is_free_[v] ? box_.box[v] : region_[v]));
-    }
+    for (const int j : problem_.kept()) x.emplace_back(is_free_[j] ? box_.box[j] : region_[j]);
     examine(x, false);
     return reason_;
   }
@@ -35,19 +34,17 @@ class SheetCheck {
     if (box_.box.size() != n || region_.size() != n) return "it does not have one side for each variable";
     is_free_.assign(n, 0);
     for (const int j : box_.free) {
-      if (j < 0 || j >= static_cast<int>(n) || problem_.place(j) < 0 || is_free_[static_cast<std::size_t>(j)])
+      if (j < 0 || j >= static_cast<int>(n) || problem_.place(j) < 0 || is_free_[j])
         return "its free variables are not distinct variables that were kept";
-      is_free_[static_cast<std::size_t>(j)] = 1;
+      is_free_[j] = 1;
     }
     for (std::size_t k = 0; k < problem_.kept().size(); ++k)
-      if (!is_free_[static_cast<std::size_t>(problem_.kept()[k])]) dependent_.push_back(static_cast<int>(k));
+      if (!is_free_[problem_.kept()[k]]) dependent_.push_back(static_cast<int>(k));
     if (dependent_.size() != equations_.size())
       return "the equations that remain are not as many as the dependent variables";
     if ((box_.verdict == Verdict::isolated && !box_.free.empty()) || (box_.verdict == Verdict::regular && box_.free.empty()))
       return "its free variables contradict its verdict";
-    for (std::size_t v = 0; v < n; ++v)
-      if (!region_[v].contains(box_.box[v])) return "it is not inside the region of its proof";
-    return {};
+    return contains(region_, box_.box) ? "" : "it is not inside the region of its proof";
   }
 
   bool fail(const std::string& reason) {
@@ -71,13 +68,12 @@ class SheetCheck {
     const bool indivisible = choose(x, false, -1) < 0;  // a point, or free sides that are one: no halves will be narrower
     const int steps = indivisible ? kPointTightenings : kTightenings;
     for (int step = 0;; ++step) {
-      if ((step > 0 || proven) && !shrink(x, newton_.image(x))) return fail("a part of it has no solution");
+      if ((step > 0 || proven) && !newton_.shrink(x, newton_.image(x))) return fail("a part of it has no solution");
       if (settled(x)) return true;
       if (!reason_.empty()) return false;
       // The region's one solution, for each value of the free variables.
       if ((indivisible || step == steps) && newton_.center_solves(x) && center_in_region()) {
-        for (const int k : dependent_)
-          x[static_cast<std::size_t>(k)] = Enclosure(newton_.center()[static_cast<std::size_t>(k)]);
+        for (const int k : dependent_) x[k] = Enclosure(newton_.center()[k]);
         if (settled(x)) return true;
         break;
       }
@@ -98,8 +94,7 @@ class SheetCheck {
     pending_reason_ = "the Jacobian is singular";
     // About the middle of x; about a solution; about the middle of the region, as the search may have done it. Each time
     // from x as it is: a side that was shrunk to an image has no interior left for the next.
-    Sides region;
-    for (const int j : problem_.kept()) region.emplace_back(region_[static_cast<std::size_t>(j)]);
+    Sides region = problem_.kept(region_);
     for (const auto& [around, center] : {std::pair(&x, Center::middle), {&x, Center::polished}, {&region, Center::middle}}) {
       Sides part = x;
       if (newton_.set(dependent_, *around, center) && prove_about_center(part)) {
@@ -121,14 +116,12 @@ class SheetCheck {
     for (int step = 0; step < kProofSteps; ++step) {
       problem_.stop().poll();
       const Sides image = newton_.image(x);
-      bool within = true;
-      for (std::size_t a = 0; a < image.size() && within; ++a) within = image[a].strictly_inside(x[place(a)]);
-      exists = exists || within;  // K ⊂ int Z: a fixed point for every value of the free variables
+      exists = exists || newton_.is_inside(image, x);  // K ⊂ int Z: a fixed point for every value of the free variables
       if (exists && newton_.is_injective(x))
-        return shrink(x, image) || fail("existence and emptiness contradict each other");
+        return newton_.shrink(x, image) || fail("existence and emptiness contradict each other");
       double former = 0, now = 0;
       for (std::size_t a = 0; a < image.size(); ++a) former = std::max(former, x[place(a)].width());
-      if (!shrink(x, image)) return fail("a part of it has no solution in its region");
+      if (!newton_.shrink(x, image)) return fail("a part of it has no solution in its region");
       for (std::size_t a = 0; a < image.size(); ++a) now = std::max(now, x[place(a)].width());
       if (now > 0.9 * former) break;
     }
@@ -143,18 +136,13 @@ class SheetCheck {
   bool prove_near_box(Sides& x) {
     constexpr int kInflations = 10;
     Sides z = x;
-    for (std::size_t a = 0; a < dependent_.size(); ++a)
-      z[place(a)] = Enclosure(box_.box[static_cast<std::size_t>(problem_.kept()[place(a)])]);
+    for (std::size_t a = 0; a < dependent_.size(); ++a) z[place(a)] = Enclosure(box_.box[problem_.kept()[place(a)]]);
     if (!newton_.set(dependent_, z, Center::polished)) return false;
     for (int step = 0; step < kInflations; ++step) {
       problem_.stop().poll();
       const Sides image = newton_.image(z);
-      bool inside = true;
-      for (std::size_t a = 0; a < image.size(); ++a) {
-        inside = inside && image[a].strictly_inside(z[place(a)]);
-        if (!image[a].is_bounded()) return false;
-      }
-      if (inside) {
+      if (!std::ranges::all_of(image, [](const Enclosure& k) { return k.is_bounded(); })) return false;
+      if (newton_.is_inside(image, z)) {
         Sides both = z;
         for (std::size_t a = 0; a < image.size(); ++a) both[place(a)] = Enclosure::hull(z[place(a)], x[place(a)]);
         if (!newton_.is_injective(both) && !(newton_.is_injective(z) && is_injective_about_middle(both))) return false;
@@ -175,18 +163,13 @@ class SheetCheck {
   }
 
   bool center_in_region() const {
-    for (std::size_t k = 0; k < problem_.kept().size(); ++k)
-      if (!region_[static_cast<std::size_t>(problem_.kept()[k])].contains(newton_.center()[k])) return false;
+    const std::vector<double>& center = newton_.center();
+    for (std::size_t k = 0; k < center.size(); ++k)
+      if (!region_[problem_.kept()[k]].contains(center[k])) return false;
     return true;
   }
 
-  std::size_t place(std::size_t a) const { return static_cast<std::size_t>(dependent_[a]); }
-
-  bool shrink(Sides& x, const Sides& image) {
-    for (std::size_t a = 0; a < image.size(); ++a)
-      if (!x[place(a)].intersect(image[a])) return false;
-    return true;
-  }
+  std::size_t place(std::size_t a) const { return dependent_[a]; }
 
   // After image(x0), x ⊂ x0 holding the solutions over x's free sides: do they lie in the box, and where asked in the
   // domain?
@@ -202,7 +185,7 @@ class SheetCheck {
     if (!problem_.clip_to_implied(clipped)) return fail("a part of it lies outside a domain that the equations imply");
     for (const Problem::Value& v : problem_.values()) {
       Enclosure value = v.row.value(clipped);
-      if (value.inside(box_.box[static_cast<std::size_t>(v.variable)])) continue;
+      if (value.inside(box_.box[v.variable])) continue;
       value.intersect(newton_.value_at_zeros(v.row, x));
       if (!inside(value, v.variable)) return false;
     }
@@ -213,9 +196,7 @@ class SheetCheck {
       if (!value.is_nonnegative()) value.intersect(newton_.value_at_zeros(condition.row, x));
       if (value.is_nonnegative()) continue;
       const std::string what =
-          condition.variable < 0
-              ? "an inequality"
-              : "the domain of " + problem_.system().variables[static_cast<std::size_t>(condition.variable)].name;
+          condition.variable < 0 ? "an inequality" : "the domain of " + problem_.system().variables[condition.variable].name;
       if (value.is_negative()) return fail("a part of it violates " + what);
       pending_reason_ = "it may violate " + what;
       return false;
@@ -226,22 +207,20 @@ class SheetCheck {
   // Of a free variable whose side reaches no farther than its domain's ends, rounded outward, or than those of a variable
   // that is an affine function of it: the claim is about values in the domain.
   bool is_end_of_free(const Condition& condition) const {
-    const auto is_free = [&](int variable) {
-      return std::find(box_.free.begin(), box_.free.end(), variable) != box_.free.end();
-    };
+    const auto is_free = [&](int variable) { return std::ranges::find(box_.free, variable) != box_.free.end(); };
     if (condition.image && is_free(condition.image->of)) {
-      const Interval& side = box_.box[static_cast<std::size_t>(condition.image->of)];
+      const Interval& side = box_.box[condition.image->of];
       return condition.image->is_lower ? side.lo() >= condition.image->end : side.hi() <= condition.image->end;
     }
     if (condition.variable < 0 || !is_free(condition.variable)) return false;
-    const auto j = static_cast<std::size_t>(condition.variable);
+    const std::size_t j = condition.variable;
     return problem_.system().variables[j].domain.contains(box_.box[j]);
   }
 
   bool inside(const Enclosure& side, int variable) {
-    const Interval& bound = box_.box[static_cast<std::size_t>(variable)];
+    const Interval& bound = box_.box[variable];
     if (side.inside(bound)) return true;
-    const std::string& name = problem_.system().variables[static_cast<std::size_t>(variable)].name;
+    const std::string& name = problem_.system().variables[variable].name;
     if (!side.overlaps(bound)) return fail("a solution of its region lies outside it (" + name + ")");
     pending_reason_ = "a solution of its region may lie outside it (" + name + ")";
     return false;
@@ -254,10 +233,10 @@ class SheetCheck {
     double most = 0;
     for (const int j : box_.free) {
       const int k = problem_.place(j);
-      double share = meant >= 0 ? newton_.steepness(static_cast<std::size_t>(meant), k) : 1;
+      double share = meant >= 0 ? newton_.steepness(meant, k) : 1;
       for (std::size_t a = 0; proven && meant < 0 && a < dependent_.size(); ++a)
         share = std::max(share, newton_.steepness(a, k));
-      const Enclosure& side = x[static_cast<std::size_t>(k)];
+      const Enclosure& side = x[k];
       const double width = side.width(), middle = side.mid();
       if (share * width > most && side.lo() < middle && middle < side.hi()) most = share * width, along = k;
     }
@@ -268,7 +247,7 @@ class SheetCheck {
     int along = proven && wide_ >= 0 ? choose(x, proven, wide_) : -1;
     if (along < 0) along = choose(x, proven, -1);
     if (along < 0) return fail(pending_reason_);
-    const auto k = static_cast<std::size_t>(along);
+    const std::size_t k = along;
     const double middle = x[k].mid();
     for (const auto& half : {Enclosure(x[k].lo(), middle), Enclosure(middle, x[k].hi())}) {
       Sides part = x;
@@ -287,8 +266,7 @@ class SheetCheck {
   std::vector<unsigned char> is_free_;
   std::vector<int> dependent_;
   int parts_ = 0;
-  int wide_ =
-      -1;  // the first dependent whose solutions were not shown to lie in the box, when they were looked at last; −1: none
+  int wide_ = -1;  // the first dependent that was not shown to lie in the box, when they were looked at last; −1: none
   std::string reason_, pending_reason_;
 };
 
@@ -296,6 +274,53 @@ class SheetCheck {
 
 std::string check_sheet(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region) {
   return SheetCheck(problem, equations, box, region).run();
+}
+
+Sides solution_near(const Problem& problem, const std::vector<double>& point, const std::vector<int>& held_variables,
+                    std::string& fault) {
+  constexpr int kInflations = 12, kSteps = 3;
+  const std::size_t n = problem.system().variables.size();
+  const auto no = [&](const char* why) {
+    fault = why;
+    return Sides();
+  };
+  if (point.size() != n || !std::ranges::all_of(point, [](double x) { return std::isfinite(x); }))
+    return no("its point does not have one number for each variable");
+  std::vector<unsigned char> held(n, 0);
+  for (const int j : held_variables) {
+    if (j < 0 || j >= static_cast<int>(n) || held[j]) return no("it holds a variable that does not exist, or one twice");
+    held[j] = 1;
+  }
+  std::vector<int> dependent;
+  Sides x;
+  for (std::size_t j = 0; j < n; ++j) {
+    const double c = point[j], radius = held[j] ? 0 : 1e-10 * std::max(1.0, std::fabs(c));
+    x.emplace_back(c - radius, c + radius);
+    if (!held[j]) dependent.push_back(static_cast<int>(j));
+  }
+  Krawczyk newton(problem.equations(), static_cast<int>(n));
+  if (dependent.size() != problem.equations().size())
+    return no("the number of variables that it holds is not the dimension of the set");
+  bool exists = false;
+  for (int step = 0; !exists && step < kInflations; ++step) {
+    problem.stop().poll();
+    if (!newton.set(dependent, x, Krawczyk::Center::polished)) return no("its equations are singular");
+    const Sides image = newton.image(x);
+    exists = newton.is_inside(image, x);
+    for (std::size_t a = 0; a < image.size(); ++a) {
+      if (!image[a].is_bounded()) return no("no solution is shown near its point");
+      Enclosure& side = x[dependent[a]];
+      const double margin = 0.2 * image[a].width() + 1e-15 * image[a].mag() + 1e-300;
+      if (!exists) side = Enclosure(image[a].lo() - margin, image[a].hi() + margin);
+      if (exists) side = image[a];
+    }
+  }
+  if (!exists) return no("no solution is shown near its point");
+  for (int step = 0; step < kSteps; ++step) {
+    if (!newton.set(dependent, x, Krawczyk::Center::refined)) break;
+    if (!newton.shrink(x, newton.image(x))) return no("no solution is shown near its point");
+  }
+  return x;
 }
 
 }  // namespace corank::check

@@ -1,7 +1,8 @@
-// Boxes that a sheet proves: regular, isolated, boundary.
+// Boxes that a sheet proves: regular, isolated, boundary. And single solutions, found and proven anew near a point.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "corank/check/krawczyk.h"
 #include "corank/check/problem.h"
@@ -15,5 +16,12 @@ namespace corank::check {
 /// Returns what could not be shown, nothing where all was.
 /// The equations are those given: the problem's, or others that imply them (check/self_motion.h).
 std::string check_sheet(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region);
+
+/// Encloses a solution of all equations of a problem without a reduction, at which the variables `held` have the point's
+/// values exactly; as many are to be held as the equations leave free. `fault`: why none was shown; empty where one was.
+/// Theorem (Krawczyk, Brouwer): where the image of a box lies strictly inside of it, the box holds a solution with the
+/// held variables' values; it lies in every further image, too.
+Sides solution_near(const Problem& problem, const std::vector<double>& point, const std::vector<int>& held,
+                    std::string& fault);
 
 }  // namespace corank::check

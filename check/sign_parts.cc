@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "corank/core/box.h"
+
 namespace corank::check {
 namespace {
 
@@ -43,23 +45,12 @@ SignCell SignParts::cell(const std::vector<int>& free, Sides sides) const {
   return result;
 }
 
-std::vector<int> SignParts::dependent(const SignCell& cell) const {
-  std::vector<int> result;
-  for (int j = 0; j < problem_.size(); ++j)
-    if (std::find(cell.free->begin(), cell.free->end(), j) == cell.free->end()) result.push_back(j);
-  return result;
-}
-
 bool SignParts::bound(SignCell& cell, int steps) const {
-  const std::vector<int> dependent = this->dependent(cell);
+  const std::vector<int> dependent = all_but(*cell.free, problem_.size());
   Krawczyk newton(problem_.equations(), problem_.size());
   for (int step = 0; step < steps && (step == 0 || !cell.mixed.empty()); ++step) {
     const bool linear = newton.set(dependent, cell.sides, Krawczyk::Center::polished);
-    if (linear) {
-      const Sides image = newton.image(cell.sides);
-      for (std::size_t a = 0; a < image.size(); ++a)
-        if (!cell.sides[static_cast<std::size_t>(dependent[a])].intersect(image[a])) return false;
-    }
+    if (linear && !newton.shrink(cell.sides, newton.image(cell.sides))) return false;
     std::vector<std::size_t> mixed;
     for (const std::size_t k : cell.mixed) {
       Enclosure value = functions_[k].value(cell.sides);
@@ -84,7 +75,7 @@ SignParts::Part SignParts::whole(const SignCell& cell, const std::vector<int>& s
 }
 
 bool SignParts::slopes(const SignCell& cell, Slopes& result) const {
-  const std::vector<int> dependent = this->dependent(cell);
+  const std::vector<int> dependent = all_but(*cell.free, problem_.size());
   const std::vector<Row>& equations = problem_.equations();
   const std::size_t m = equations.size(), n = cell.sides.size();
   if (dependent.size() != m) return false;
@@ -95,11 +86,11 @@ bool SignParts::slopes(const SignCell& cell, Slopes& result) const {
   std::vector<double> middle(m * m);
   const auto derive = [&](const Row& row, Sides& dense) {
     row.derivatives(cell.sides, entries);
-    for (std::size_t k = 0; k < entries.size(); ++k) dense[static_cast<std::size_t>(row.columns()[k])] = entries[k];
+    for (std::size_t k = 0; k < entries.size(); ++k) dense[row.columns()[k]] = entries[k];
   };
   for (std::size_t b = 0; b < m; ++b) {
     derive(equations[b], jacobian[b]);
-    for (std::size_t a = 0; a < m; ++a) middle[b * m + a] = jacobian[b][static_cast<std::size_t>(dependent[a])].mid();
+    for (std::size_t a = 0; a < m; ++a) middle[b * m + a] = jacobian[b][dependent[a]].mid();
   }
   std::vector<double> y = inverse(middle, m);
   if (y.size() != m * m) return false;
@@ -109,16 +100,16 @@ bool SignParts::slopes(const SignCell& cell, Slopes& result) const {
       for (std::size_t j = 0; y[a * m + b] != 0 && j < n; ++j)
         if (!jacobian[b][j].is_zero()) t[a][j].add_product(y[a * m + b], jacobian[b][j]);
   for (std::size_t k = 0; k < m; ++k) {
-    const Enclosure pivot = t[k][static_cast<std::size_t>(dependent[k])];
+    const Enclosure pivot = t[k][dependent[k]];
     if (pivot.has_zero() || !pivot.is_bounded()) return false;
     for (Enclosure& entry : t[k])
       if (!entry.is_zero()) entry = quotient(entry, pivot);
     for (std::size_t i = 0; i < m; ++i) {
-      const Enclosure factor = -t[i][static_cast<std::size_t>(dependent[k])];
+      const Enclosure factor = -t[i][dependent[k]];
       if (i == k || factor.is_zero()) continue;
       for (std::size_t j = 0; j < n; ++j)
         if (!t[k][j].is_zero()) t[i][j].add_product(factor, t[k][j]);
-      t[i][static_cast<std::size_t>(dependent[k])] = Enclosure();
+      t[i][dependent[k]] = Enclosure();
     }
   }
   result.clear();
@@ -126,9 +117,8 @@ bool SignParts::slopes(const SignCell& cell, Slopes& result) const {
     Sides gradient(n), by_free;
     derive(functions_[g], gradient);
     for (const int f : *cell.free) {
-      Enclosure sum = gradient[static_cast<std::size_t>(f)];
-      for (std::size_t a = 0; a < m; ++a)
-        sum.add_product(-gradient[static_cast<std::size_t>(dependent[a])], t[a][static_cast<std::size_t>(f)]);
+      Enclosure sum = gradient[f];
+      for (std::size_t a = 0; a < m; ++a) sum.add_product(-gradient[dependent[a]], t[a][f]);
       by_free.push_back(sum);
     }
     result.push_back(std::move(by_free));
@@ -147,7 +137,7 @@ bool SignParts::grows(const SignCell& cell, const Slopes& slopes, const Directio
 
 SignCell SignParts::face(const SignCell& cell, std::size_t f, bool upper, int steps) const {
   SignCell result = cell;
-  Enclosure& side = result.sides[static_cast<std::size_t>((*cell.free)[f])];
+  Enclosure& side = result.sides[(*cell.free)[f]];
   side = upper ? side.upper_end() : side.lower_end();
   if (!bound(result, steps)) result = cell;  // says no more than the cell does
   return result;
@@ -165,7 +155,7 @@ bool SignParts::add_segment(SignCell cell, std::size_t along, bool upwards, cons
   const Part at_begin = whole(begin, signs), at_end = whole(end, signs);
   const bool holds = at_begin == Part::connected || at_end == Part::connected;
   Slopes s;
-  if (slopes(cell, s) && std::none_of(s.begin(), s.end(), [&](const Sides& slope) { return slope[along].has_zero(); })) {
+  if (slopes(cell, s) && std::ranges::none_of(s, [&](const Sides& slope) { return slope[along].has_zero(); })) {
     bool empty = false;
     for (std::size_t i = 0; i < s.size(); ++i) {
       const std::size_t k = cell.mixed[i];
@@ -177,7 +167,7 @@ bool SignParts::add_segment(SignCell cell, std::size_t along, bool upwards, cons
       return true;
     }
   }
-  const auto j = static_cast<std::size_t>((*cell.free)[along]);
+  const std::size_t j = (*cell.free)[along];
   const double from = cell.sides[j].lo(), to = cell.sides[j].hi(), cut = from + kShare * (to - from);
   if (depth == 0 || !(from < cut && cut < to)) return false;
   SignCell first = cell, second = cell;
@@ -222,7 +212,7 @@ SignParts::Part SignParts::part(const SignCell& cell, std::vector<std::size_t> o
       if (const Part p = outflow(cell, open, signs, d); p != Part::unknown) return p;
       if (--tries == 0) break;
     } else if (used.size() == 1) {
-      open.erase(std::find(open.begin(), open.end(), used.front()));
+      open.erase(std::ranges::find(open, used.front()));
       return part(face(cell, used.front(), d[used.front()] > 0, 1), std::move(open), signs, directions);
     }
   }

@@ -70,7 +70,6 @@ class SignParts {
   Part outflow(const SignCell& cell, const std::vector<std::size_t>& open, const std::vector<int>& signs,
                const Direction& d) const;
   bool add_segment(SignCell cell, std::size_t along, bool upwards, const std::vector<int>& signs, int depth, Arc& arc) const;
-  std::vector<int> dependent(const SignCell& cell) const;
 
   const Problem& problem_;
   const std::vector<Row>& functions_;

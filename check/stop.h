@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "corank/core/ended.h"
+#include "corank/core/nearest_rounding.h"
 
 namespace corank::check {
 
@@ -23,5 +24,17 @@ class StopFlag {
  private:
   Ended ended_;
 };
+
+/// Work that may be stopped. False: it was.
+template <class Work>
+bool finishes(const Work& work) {
+  const NearestRounding nearest;
+  try {
+    work();
+    return true;
+  } catch (const Stopped&) {
+    return false;
+  }
+}
 
 }  // namespace corank::check

@@ -3,36 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 
 namespace corank::check {
 namespace {
-
-bool is_function(const std::vector<Factor>& factors) {
-  return factors.size() == 1 && factors[0].function != Function::identity;
-}
-
-std::vector<Factor> merged(const std::vector<Factor>& a, const std::vector<Factor>& b) {
-  std::map<int, int> powers;
-  for (const auto* list : {&a, &b})
-    for (const Factor& f : *list) powers[f.variable] += f.power;
-  std::vector<Factor> result;
-  for (const auto& [variable, power] : powers) result.push_back({variable, power});
-  return result;
-}
 
 Coefficient product(const Coefficient& x, const Coefficient& y) {
   return {x.exact * y.exact, x.range * y.range, x.tolerant || y.tolerant};
 }
 
-std::string name_of(const System& system, int variable) { return system.variables[static_cast<std::size_t>(variable)].name; }
+std::string name_of(const System& system, int variable) { return system.variables[variable].name; }
 
 }  // namespace
 
-bool FactorOrder::operator()(const std::vector<Factor>& a, const std::vector<Factor>& b) const {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](const Factor& x, const Factor& y) {
-    return std::tie(x.variable, x.power, x.function) < std::tie(y.variable, y.power, y.function);
-  });
+Factors merged(const Factors& a, const Factors& b) {
+  std::map<int, int> powers;
+  for (const auto* list : {&a, &b})
+    for (const Factor& f : *list) powers[f.variable] += f.power;
+  Factors result;
+  for (const auto& [variable, power] : powers) result.push_back({variable, power});
+  return result;
 }
 
 Terms::Terms(const Polynomial& f, double tolerance) {
@@ -54,7 +43,7 @@ Terms::Terms(const ExactNumber& constant) {
   drop_zeros();
 }
 
-void Terms::add(const std::vector<Factor>& factors, const Coefficient& c) {
+void Terms::add(const Factors& factors, const Coefficient& c) {
   const auto [at, is_new] = list_.try_emplace(factors, c);
   if (is_new) return;
   at->second.exact = at->second.exact + c.exact;
@@ -71,22 +60,22 @@ void Terms::drop_zeros() {
 }
 
 bool Terms::mentions(int variable) const {
-  return std::any_of(list_.begin(), list_.end(), [&](const auto& term) {
-    return std::any_of(term.first.begin(), term.first.end(), [&](const Factor& f) { return f.variable == variable; });
+  return std::ranges::any_of(list_, [&](const auto& term) {
+    return std::ranges::any_of(term.first, [&](const Factor& f) { return f.variable == variable; });
   });
 }
 
 bool Terms::mentions_inside_function(int variable) const {
-  return std::any_of(list_.begin(), list_.end(),
-                     [&](const auto& term) { return is_function(term.first) && term.first[0].variable == variable; });
+  return std::ranges::any_of(
+      list_, [&](const auto& term) { return is_function(term.first) && term.first[0].variable == variable; });
 }
 
 bool Terms::is_constant() const {
-  return std::all_of(list_.begin(), list_.end(), [](const auto& term) { return term.first.empty(); });
+  return std::ranges::all_of(list_, [](const auto& term) { return term.first.empty(); });
 }
 
 bool Terms::is_exact() const {
-  return std::none_of(list_.begin(), list_.end(), [](const auto& term) { return term.second.tolerant; });
+  return std::ranges::none_of(list_, [](const auto& term) { return term.second.tolerant; });
 }
 
 ExactNumber Terms::constant() const {
@@ -126,12 +115,12 @@ std::optional<Terms> Terms::substituted(int variable, const Terms& value) const 
   if (mentions_inside_function(variable)) return std::nullopt;
   Terms result;
   for (const auto& [factors, c] : list_) {
-    const auto at = std::find_if(factors.begin(), factors.end(), [&](const Factor& f) { return f.variable == variable; });
+    const auto at = std::ranges::find_if(factors, [&](const Factor& f) { return f.variable == variable; });
     if (at == factors.end()) {
       result.add(factors, c);
       continue;
     }
-    std::vector<Factor> rest = factors;
+    Factors rest = factors;
     rest.erase(rest.begin() + (at - factors.begin()));
     Terms partial;
     partial.add(rest, c);
@@ -184,7 +173,7 @@ Terms Terms::plus(const ExactNumber& q, const Terms& g) const {
   return result;
 }
 
-std::optional<Terms> Terms::times(const std::vector<Factor>& powers) const {
+std::optional<Terms> Terms::times(const Factors& powers) const {
   if (powers.empty()) return *this;
   Terms result;
   for (const auto& [factors, c] : list_) {
@@ -226,14 +215,14 @@ class Reducer {
     const auto refuse = [&](const std::string& reason) {
       throw std::invalid_argument("elimination of " + name_of(system_, x) + ": " + reason);
     };
-    auto& value = result_.values[static_cast<std::size_t>(x)];
+    auto& value = result_.values[x];
     if (value) refuse("it is gone already");
     if (!row) {
-      const Variable& v = system_.variables[static_cast<std::size_t>(x)];
+      const Variable& v = system_.variables[x];
       if (!(v.lower == v.upper)) refuse("its domain is more than one number");
       value = Terms(v.lower);
     } else {
-      auto& equation = equations_[static_cast<std::size_t>(*row)];
+      auto& equation = equations_[*row];
       if (!equation) refuse("its equation has been used");
       value = equation->solved_for(x);
       if (!value) refuse("its equation does not define it");
@@ -258,15 +247,13 @@ class Reducer {
 
   // {f + q·g = 0, g = 0} ⇔ {f = 0, g = 0}: g must be another equation that stays.
   void add(int row, int other, const ExactNumber& factor) {
-    const auto is_there = [&](int i) {
-      return i >= 0 && i < static_cast<int>(equations_.size()) && equations_[static_cast<std::size_t>(i)];
-    };
+    const auto is_there = [&](int i) { return i >= 0 && i < static_cast<int>(equations_.size()) && equations_[i]; };
     if (!is_there(row) || !is_there(other) || row == other)
       throw std::invalid_argument("a sum of equations: it does not name two different equations that exist");
     if (!factor.is_rational()) throw std::invalid_argument("a sum of equations: the factor is not rational");
     if (!result_.implied.empty()) throw std::invalid_argument("a sum of equations: after an implied equation");
-    Terms& f = *equations_[static_cast<std::size_t>(row)];
-    f = f.plus(factor, *equations_[static_cast<std::size_t>(other)]);
+    Terms& f = *equations_[row];
+    f = f.plus(factor, *equations_[other]);
   }
 
   // Where all f vanish, so does Σ q·p·f.
@@ -276,12 +263,12 @@ class Reducer {
     for (const ImpliedEquation::Part& part : step.parts) {
       const int given = static_cast<int>(equations_.size()), implied = static_cast<int>(result_.implied.size());
       if (part.equation < 0 || part.equation >= given + implied) refuse("names an equation that is not there");
-      const auto k = static_cast<std::size_t>(part.equation);
+      const std::size_t k = part.equation;
       if (part.equation < given && !equations_[k]) refuse("names an equation that has been used");
       if (!part.factor.is_rational()) refuse("a factor is not rational");
       for (const Factor& x : part.product)
         if (x.variable < 0 || x.variable >= system_.size() || x.power < 1 || x.function != Function::identity ||
-            result_.values[static_cast<std::size_t>(x.variable)])
+            result_.values[x.variable])
           refuse("a product is not one of powers of variables that are kept");
       const auto p = (part.equation < given ? *equations_[k] : result_.implied[k - equations_.size()]).times(part.product);
       if (!p) refuse("a product with a sine or cosine");
@@ -292,14 +279,14 @@ class Reducer {
 
   Reduced take_result() {
     for (int j = 0; j < system_.size(); ++j)
-      if (!result_.values[static_cast<std::size_t>(j)]) result_.kept.push_back(j);
+      if (!result_.values[j]) result_.kept.push_back(j);
     for (auto& f : equations_) {
       stop_.poll();
       if (!f) continue;
       if (f->is_constant() && !f->list().empty() && !f->list().begin()->second.range.has_zero())
         result_.contradiction = true;
       const auto repeated = [&](const Terms& g) { return f->is_multiple_of(g); };
-      if (!f->list().empty() && std::none_of(result_.equations.begin(), result_.equations.end(), repeated))
+      if (!f->list().empty() && std::ranges::none_of(result_.equations, repeated))
         result_.equations.push_back(std::move(*f));
     }
     return std::move(result_);

@@ -4,7 +4,6 @@
 
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "corank/check/enclosure.h"
@@ -14,9 +13,11 @@
 
 namespace corank::check {
 
-struct FactorOrder {
-  bool operator()(const std::vector<Factor>& a, const std::vector<Factor>& b) const;
-};
+/// One sine or cosine; one variable.
+inline bool is_function(const Factors& factors) { return factors.size() == 1 && factors[0].function != Function::identity; }
+inline bool is_variable(const Factors& factors) { return factors.size() == 1 && factors[0] == Factor{factors[0].variable}; }
+/// The product, where neither has a sine or cosine.
+Factors merged(const Factors& a, const Factors& b);
 
 /// A coefficient; `range` encloses it, or all choices within the tolerance.
 struct Coefficient {
@@ -32,7 +33,7 @@ class Terms {
   Terms(const Polynomial& f, double tolerance);
   explicit Terms(const ExactNumber& constant);
 
-  const std::map<std::vector<Factor>, Coefficient, FactorOrder>& list() const { return list_; }
+  const std::map<Factors, Coefficient>& list() const { return list_; }
   bool mentions(int variable) const;
   bool mentions_inside_function(int variable) const;
   bool is_constant() const;
@@ -55,15 +56,15 @@ class Terms {
   /// this + q·g.
   Terms plus(const ExactNumber& q, const Terms& g) const;
   /// this times powers of variables; nothing where a sine or cosine would become a factor.
-  std::optional<Terms> times(const std::vector<Factor>& powers) const;
+  std::optional<Terms> times(const Factors& powers) const;
   friend Terms operator-(const Terms& f, const ExactNumber& c);
   friend Terms operator-(const Terms& f);
 
  private:
-  void add(const std::vector<Factor>& factors, const Coefficient& c);
+  void add(const Factors& factors, const Coefficient& c);
   void drop_zeros();
 
-  std::map<std::vector<Factor>, Coefficient, FactorOrder> list_;
+  std::map<Factors, Coefficient> list_;
 };
 
 /// A reduced system. Variables keep their indices in the original one.

@@ -6,7 +6,6 @@
 // no matrix loses rank, and the domain and the inequalities hold.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "corank/check/checker.h"
@@ -14,10 +13,8 @@
 
 namespace corank::check {
 
-struct TubeReport {
+struct TubeReport : Findings {
   std::size_t nodes = 0, pieces = 0;  ///< that are confirmed
-  std::vector<std::string> failures;
-  bool interrupted = false;
   bool verified() const { return failures.empty() && !interrupted; }
   bool complete() const { return verified(); }  ///< its claims leave nothing out
 };

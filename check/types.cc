@@ -51,9 +51,9 @@ class TypeCheck::InBox {
     return side_is(side, most(Block::all) - ties(side));
   }
 
-  int rows() const { return blocks_.matrices[static_cast<std::size_t>(Block::all)].rows; }
+  int rows() const { return blocks_.matrices[index(Block::all)].rows; }
   int most(Block block) const {
-    const int own = blocks_.at_most[static_cast<std::size_t>(block)];
+    const int own = blocks_.at_most[index(block)];
     if (block != Block::passive) return own;
     return std::min({own, most(Block::forward), most(Block::inverse)});
   }
@@ -65,7 +65,7 @@ class TypeCheck::InBox {
   // Is the rank r at least, all over the box?
   bool is(Block block, int r) const {
     if (r <= 0) return true;
-    const auto& rank = check_.ranks_[static_cast<std::size_t>(block)];
+    const auto& rank = check_.ranks_[index(block)];
     return rank && r <= rank->columns() && rank->is_at_most(rank->columns() - r, box_);
   }
   bool passive_is(int r) const {
@@ -102,13 +102,13 @@ std::string TypeCheck::of_point(const TypeLabels& labels, const ExactCheck& poin
     if (!rank) return "the ranks behind its types are not known";
     r[b] = *rank;
   }
-  const auto rank = [&r](Block block) { return r[static_cast<std::size_t>(block)]; };
+  const auto rank = [&r](Block block) { return r[index(block)]; };
   const auto has = [&](SingularityType type) {
     using enum SingularityType;
     using enum Block;
     switch (type) {
       case rpm: return rank(passive) < blocks_.passive;
-      case iim: return rank(all) < blocks_.matrices[static_cast<std::size_t>(all)].rows;
+      case iim: return rank(all) < blocks_.matrices[index(all)].rows;
       case ro: return rank(forward) < blocks_.outputs + rank(passive);
       case ri: return rank(inverse) < blocks_.inputs + rank(passive);
       case ii: return rank(forward) + rank(input_ties) < rank(all);

@@ -18,7 +18,7 @@ inline void include(std::span<Interval> hull, std::span<const Interval> box) {
 /// Of the sides that both have: each of `inner` is in that of `outer`.
 inline bool contains(std::span<const Interval> outer, std::span<const Interval> inner) {
   const std::size_t sides = std::min(outer.size(), inner.size());
-  return std::equal(outer.begin(), outer.begin() + static_cast<std::ptrdiff_t>(sides), inner.begin(),
+  return std::equal(outer.begin(), outer.begin() + sides, inner.begin(),
                     [](const Interval& out, const Interval& in) { return out.contains(in); });
 }
 
@@ -27,6 +27,19 @@ inline bool intersect(std::span<Interval> box, std::span<const Interval> other) 
   for (std::size_t j = 0; j < box.size(); ++j)
     if (!box[j].intersect(other[j])) return false;
   return true;
+}
+
+/// Of boxes of as many sides: have they a point in common?
+inline bool overlap(std::span<const Interval> a, std::span<const Interval> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](const Interval& x, const Interval& y) { return x.overlaps(y); });
+}
+
+/// The variables, of so many, that are not in the list; ascending.
+inline std::vector<int> all_but(std::span<const int> list, int variables) {
+  std::vector<int> others;
+  for (int j = 0; j < variables; ++j)
+    if (std::ranges::find(list, j) == list.end()) others.push_back(j);
+  return others;
 }
 
 /// Interval::mid() of each side.

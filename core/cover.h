@@ -46,9 +46,9 @@ struct Sigma {
 /// the tolerances of several equations.
 inline constexpr double kPartialTolerance = 10;
 
+/// Its place where something is listed by verdicts.
+constexpr std::size_t index(Verdict verdict) { return static_cast<std::size_t>(verdict); }
 const char* to_string(Verdict verdict);
-/// Throws std::invalid_argument for a word that names no verdict.
-Verdict verdict_from_string(const std::string& text);
 
 /// Why a box is `undecided`.
 enum class Reason : std::uint8_t {
@@ -100,7 +100,7 @@ inline bool holds_a_solution(const CoverBox& box) {
     case Verdict::boundary: return true;
     case Verdict::undecided: return box.point >= 0;
     case Verdict::partial:
-    case Verdict::pending: return false;
+    case Verdict::pending: break;
   }
   return false;
 }

@@ -70,9 +70,9 @@ bool is_real(const NodePtr& x) {
 // Adds c·e to the operands: (b + c)·e where there is b·e. What cancels is left out if e is shown to be a real number.
 void add_operand(Node& sum, const NodePtr& x) {
   constexpr std::size_t kMost = 64;  // operands, that sums of many cost no time
-  const auto like = sum.operands.size() > kMost ? sum.operands.end()
-                                                : std::find_if(sum.operands.begin(), sum.operands.end(),
-                                                               [&](const NodePtr& y) { return same_but_for_it(x, y); });
+  const auto like = sum.operands.size() > kMost
+                        ? sum.operands.end()
+                        : std::ranges::find_if(sum.operands, [&](const NodePtr& y) { return same_but_for_it(x, y); });
   if (like == sum.operands.end()) {
     sum.operands.push_back(x);
     return;
@@ -115,8 +115,7 @@ bool is_root_of_rational(const NodePtr& x) {
 // Multiplies by e: √q·√q is q.
 void multiply_operand(Node& product, const NodePtr& x) {
   if (is_root_of_rational(x)) {
-    const auto like =
-        std::find_if(product.operands.begin(), product.operands.end(), [&](const NodePtr& y) { return same(x, y); });
+    const auto like = std::ranges::find_if(product.operands, [&](const NodePtr& y) { return same(x, y); });
     if (like != product.operands.end()) {
       product.value *= x->operands[0]->value;
       product.operands.erase(like);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "corank/core/interval.h"
@@ -24,7 +25,7 @@ enum class ConstantFunction { sqrt, sin, cos, tan, asin, acos, atan, exp, log, a
 /// An exact real number as an immutable expression. Regular value type; copying is cheap (shared nodes).
 class ExactNumber {
  public:
-  struct Node;  // defined in exact_number.cc
+  struct Node;  // core/exact_number_node.h
 
   ExactNumber();  ///< 0
   /*implicit*/ ExactNumber(long n);
@@ -51,6 +52,10 @@ class ExactNumber {
 
   /// The number in the model language: "9/10", "sqrt(2)", "2*cos(1/5*pi)" …; parses back to the same number.
   std::string text() const;
+  /// The same expression node by node, which text() does not promise: a line such as "3/4 " or "+ 0 2 …".
+  std::string prefix() const;
+  /// Throws std::invalid_argument where the text is no such line.
+  static ExactNumber from_prefix(std::string_view text);
   /// A decimal such as "0.9" or "-12" that equals the number exactly, where one of at most 17 significant digits exists.
   std::optional<std::string> decimal() const;
 

@@ -1,16 +1,14 @@
-// Enclosures of exact numbers with MPFI, whose operations round outward (Revol, Rouillier 2005): by induction over the
-// expression, the interval computed for a node contains its value, where every function below is defined on the whole of its
-// argument's interval.
-#include <mpfi.h>
-#include <mpfr.h>
-
+// Enclosures of exact numbers with MPFI, whose operations round outward: by induction over the expression, the interval
+// computed for a node contains its value, where every function below is defined on the whole of its argument's interval.
 #include <algorithm>
 #include <cstdlib>
 #include <deque>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "corank/core/exact_number_node.h"
+#include "corank/core/mpfi.h"
 #include "corank/core/nearest_rounding.h"
 
 namespace corank {
@@ -23,20 +21,6 @@ using NodePtr = std::shared_ptr<const Node>;
 constexpr mpfr_exp_t kMaxTrigExponent = 65'536;  // sin(x) needs about log2|x| bits of pi
 constexpr int kFirstBits = 128, kLastBits = 8192;
 
-class Mpfi {
- public:
-  explicit Mpfi(int precision) { mpfi_init2(x_, precision); }
-  ~Mpfi() { mpfi_clear(x_); }
-  Mpfi(const Mpfi&) = delete;
-  Mpfi& operator=(const Mpfi&) = delete;
-  operator mpfi_ptr() { return x_; }
-  mpfr_srcptr lo() const { return &x_->left; }
-  mpfr_srcptr hi() const { return &x_->right; }
-
- private:
-  mpfi_t x_;
-};
-
 // More bits may decide what this precision cannot (is the divisor zero? is the radicand negative?).
 struct Undecided : std::domain_error {
   using std::domain_error::domain_error;
@@ -44,15 +28,14 @@ struct Undecided : std::domain_error {
 
 void evaluate(Mpfi& result, const Node& x, int precision);
 
-void evaluate_power(Mpfi& result, const Mpfi& base_in, int n, int precision) {
-  Mpfi base(precision);
-  mpfi_set(base, const_cast<Mpfi&>(base_in));
+void evaluate_power(Mpfi& result, Mpfi base, int n) {
   if (n < 0) {
-    if (mpfr_sgn(base.lo()) <= 0 && mpfr_sgn(base.hi()) >= 0) throw Undecided("a divisor cannot be distinguished from zero");
+    if (mpfr_sgn(base.lower()) <= 0 && mpfr_sgn(base.upper()) >= 0)
+      throw Undecided("a divisor cannot be distinguished from zero");
     mpfi_ui_div(base, 1, base);
   }
   mpfi_set_ui(result, 1);
-  for (unsigned long m = static_cast<unsigned long>(std::labs(static_cast<long>(n))); m != 0; m >>= 1) {
+  for (long m = std::labs(n); m != 0; m >>= 1) {
     if (m & 1) mpfi_mul(result, result, base);
     if (m > 1) mpfi_sqr(base, base);
   }
@@ -73,8 +56,8 @@ void evaluate_function(Mpfi& result, const Node& x, int precision) {
   Mpfi a(precision);
   evaluate(a, *x.operands[0], precision);
   for (Known& k : known)
-    if (k.function == x.function && k.precision == precision && mpfr_equal_p(k.argument.lo(), a.lo()) &&
-        mpfr_equal_p(k.argument.hi(), a.hi())) {
+    if (k.function == x.function && k.precision == precision && mpfr_equal_p(k.argument.lower(), a.lower()) &&
+        mpfr_equal_p(k.argument.upper(), a.upper())) {
       mpfi_set(result, k.value);
       return;
     }
@@ -88,26 +71,26 @@ void evaluate_function(Mpfi& result, const Node& x, int precision) {
 void apply(Mpfi& result, ConstantFunction f, Mpfi& a, int precision) {
   const std::string name = function_name(f);
   const auto trig_argument = [&] {
-    for (mpfr_srcptr end : {a.lo(), a.hi()})
+    for (mpfr_srcptr end : {a.lower(), a.upper()})
       if (!mpfr_number_p(end) || (!mpfr_zero_p(end) && mpfr_get_exp(end) > kMaxTrigExponent))
         throw std::domain_error("the argument of " + name + " is too large");
   };
   const auto unit_argument = [&] {
-    if (mpfr_cmp_si(a.lo(), 1) > 0 || mpfr_cmp_si(a.hi(), -1) < 0)
+    if (mpfr_cmp_si(a.lower(), 1) > 0 || mpfr_cmp_si(a.upper(), -1) < 0)
       throw std::domain_error(name + " of a number outside [-1, 1]");
-    if (mpfr_cmp_si(a.hi(), 1) > 0 || mpfr_cmp_si(a.lo(), -1) < 0)
+    if (mpfr_cmp_si(a.upper(), 1) > 0 || mpfr_cmp_si(a.lower(), -1) < 0)
       throw Undecided(name + " of a number that cannot be distinguished from one outside [-1, 1]");
   };
   switch (f) {
     case ConstantFunction::sqrt:
-      if (mpfr_sgn(a.hi()) < 0) throw std::domain_error("sqrt of a negative number");
-      if (mpfr_sgn(a.lo()) < 0) throw Undecided("sqrt of a number that cannot be distinguished from a negative one");
+      if (mpfr_sgn(a.upper()) < 0) throw std::domain_error("sqrt of a negative number");
+      if (mpfr_sgn(a.lower()) < 0) throw Undecided("sqrt of a number that cannot be distinguished from a negative one");
       mpfi_sqrt(result, a);
       break;
     case ConstantFunction::log:
-      if (mpfr_sgn(a.hi()) < 0 || (mpfr_zero_p(a.lo()) && mpfr_zero_p(a.hi())))
+      if (mpfr_sgn(a.upper()) < 0 || (mpfr_zero_p(a.lower()) && mpfr_zero_p(a.upper())))
         throw std::domain_error("log of a number that is not positive");
-      if (mpfr_sgn(a.lo()) <= 0) throw Undecided("log of a number that cannot be distinguished from zero");
+      if (mpfr_sgn(a.lower()) <= 0) throw Undecided("log of a number that cannot be distinguished from zero");
       mpfi_log(result, a);
       break;
     case ConstantFunction::sin: trig_argument(), mpfi_sin(result, a); break;
@@ -117,7 +100,7 @@ void apply(Mpfi& result, ConstantFunction f, Mpfi& a, int precision) {
       trig_argument();
       Mpfi c(precision);
       mpfi_cos(c, a);
-      if (mpfr_sgn(c.lo()) <= 0 && mpfr_sgn(c.hi()) >= 0)
+      if (mpfr_sgn(c.lower()) <= 0 && mpfr_sgn(c.upper()) >= 0)
         throw Undecided("tan at a number that cannot be distinguished from a pole");
       mpfi_sin(result, a);
       mpfi_div(result, result, c);
@@ -148,56 +131,67 @@ void evaluate(Mpfi& result, const Node& x, int precision) {
     case Kind::power: {
       Mpfi base(precision);
       evaluate(base, *x.operands[0], precision);
-      evaluate_power(result, base, x.exponent, precision);
+      evaluate_power(result, std::move(base), x.exponent);
       break;
     }
     case Kind::function: evaluate_function(result, x, precision); break;
   }
-  if (mpfr_nan_p(result.lo()) || mpfr_nan_p(result.hi())) throw Undecided("an undefined operation on unbounded numbers");
+  if (mpfr_nan_p(result.lower()) || mpfr_nan_p(result.upper()))
+    throw Undecided("an undefined operation on unbounded numbers");
 }
 
 // The enclosure is so narrow that rounding it outward to doubles adds all the width that counts: width ≤ 2⁻⁶² of the
 // magnitude.
 bool narrow(const Mpfi& x) {
-  if (!mpfr_number_p(x.lo()) || !mpfr_number_p(x.hi())) return false;
-  if (mpfr_equal_p(x.lo(), x.hi())) return true;
-  if (mpfr_sgn(x.lo()) != mpfr_sgn(x.hi())) return false;
+  if (!mpfr_number_p(x.lower()) || !mpfr_number_p(x.upper())) return false;
+  if (mpfr_equal_p(x.lower(), x.upper())) return true;
+  if (mpfr_sgn(x.lower()) != mpfr_sgn(x.upper())) return false;
   Mpfi width(64);
-  mpfi_set_fr(width, x.hi());
-  mpfi_sub_fr(width, width, x.lo());
-  const mpfr_srcptr smaller = mpfr_cmpabs(x.lo(), x.hi()) < 0 ? x.lo() : x.hi();
-  return mpfr_get_exp(width.hi()) <= mpfr_get_exp(smaller) - 62;
+  mpfi_set_fr(width, x.upper());
+  mpfi_sub_fr(width, width, x.lower());
+  const mpfr_srcptr smaller = mpfr_cmpabs(x.lower(), x.upper()) < 0 ? x.lower() : x.upper();
+  return mpfr_get_exp(width.upper()) <= mpfr_get_exp(smaller) - 62;
 }
 
-Interval outward(const Mpfi& x) { return {mpfr_get_d(x.lo(), MPFR_RNDD), mpfr_get_d(x.hi(), MPFR_RNDU)}; }
+Interval outward(const Mpfi& x) { return {mpfr_get_d(x.lower(), MPFR_RNDD), mpfr_get_d(x.upper(), MPFR_RNDU)}; }
+
+// The first answer that is found in enclosures of x with `bits`, twice as many … bits, `last` at most. `found` says nothing
+// where more bits are to decide, unless it is told that there will be none.
+template <class Found>
+auto in_enclosures(const ExactNumber& x, int bits, int last, Found found) {
+  const NearestRounding nearest;
+  for (;; bits *= 2) {
+    const bool is_last = 2 * bits > last;
+    try {
+      Mpfi enclosure(bits);
+      evaluate(enclosure, x.node(), bits);
+      if (const auto answer = found(enclosure, is_last); answer || is_last) return answer;
+    } catch (const Undecided& undecided) {
+      if (is_last) throw Undecided(x.text() + " is not a real number: " + undecided.what());
+    } catch (const std::domain_error& error) {
+      throw std::domain_error(x.text() + " is not a real number: " + error.what());
+    }
+  }
+}
 
 }  // namespace
 
 Interval ExactNumber::enclose() const {
-  const NearestRounding nearest;
   if (is_rational()) {
+    const NearestRounding nearest;
     // 53 bits rounded downward (upward), then to a double in the same direction: the grid of the second rounding is part of
     // the first one's, so the pair is the narrowest.
     Mpfi x(53);
     mpfi_set_q(x, node_->value.get_mpq_t());
     return outward(x);
   }
-  for (int precision = kFirstBits;; precision *= 2) {
-    try {
-      Mpfi x(precision);
-      evaluate(x, *node_, precision);
-      if (narrow(x) || 2 * precision > kLastBits) return outward(x);
-    } catch (const Undecided& undecided) {
-      if (2 * precision > kLastBits) throw std::domain_error(text() + " is not a real number: " + undecided.what());
-    } catch (const std::domain_error& error) {
-      throw std::domain_error(text() + " is not a real number: " + error.what());
-    }
-  }
+  return *in_enclosures(*this, kFirstBits, kLastBits, [](const Mpfi& x, bool is_last) {
+    return narrow(x) || is_last ? std::optional(outward(x)) : std::nullopt;
+  });
 }
 
 std::pair<ExactNumber, ExactNumber> ExactNumber::bounds(int bits) const {
   if (is_rational()) return {*this, *this};
-  const NearestRounding nearest;
   constexpr int kGuardBits = 32;
   const auto rational_of = [](mpfr_srcptr end) {
     if (!mpfr_number_p(end)) throw Undecided("a number of unknown size");
@@ -205,36 +199,23 @@ std::pair<ExactNumber, ExactNumber> ExactNumber::bounds(int bits) const {
     mpfr_get_q(q.get_mpq_t(), end);
     return Node::number(std::move(q));
   };
-  for (int precision = bits + kGuardBits;; precision *= 2) {
-    try {
-      Mpfi x(precision);
-      evaluate(x, *node_, precision);
-      return {rational_of(x.lo()), rational_of(x.hi())};
-    } catch (const Undecided& undecided) {
-      if (2 * precision > std::max(kLastBits, 2 * bits))
-        throw std::domain_error(text() + " is not a real number: " + undecided.what());
-    } catch (const std::domain_error& error) {
-      throw std::domain_error(text() + " is not a real number: " + error.what());
-    }
-  }
+  return *in_enclosures(*this, bits + kGuardBits, std::max(kLastBits, 2 * bits), [&](const Mpfi& x, bool) {
+    return std::optional(std::pair(rational_of(x.lower()), rational_of(x.upper())));
+  });
 }
 
 std::optional<int> ExactNumber::sign(int max_bits) const {
   if (is_rational()) return sgn(node_->value);
-  const NearestRounding nearest;
-  for (int precision = 64; precision <= std::max(64, max_bits); precision *= 2) {
-    try {
-      Mpfi x(precision);
-      evaluate(x, *node_, precision);
-      if (mpfr_sgn(x.lo()) > 0) return 1;
-      if (mpfr_sgn(x.hi()) < 0) return -1;
-      if (mpfr_zero_p(x.lo()) && mpfr_zero_p(x.hi())) return 0;
-    } catch (const Undecided&) {
-    } catch (const std::domain_error& error) {
-      throw std::domain_error(text() + " is not a real number: " + error.what());
-    }
+  try {
+    return in_enclosures(*this, 64, std::max(64, max_bits), [](const Mpfi& x, bool) -> std::optional<int> {
+      if (mpfr_sgn(x.lower()) > 0) return 1;
+      if (mpfr_sgn(x.upper()) < 0) return -1;
+      if (mpfr_zero_p(x.lower()) && mpfr_zero_p(x.upper())) return 0;
+      return std::nullopt;
+    });
+  } catch (const Undecided&) {
+    return std::nullopt;
   }
-  return std::nullopt;
 }
 
 }  // namespace corank

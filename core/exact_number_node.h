@@ -3,6 +3,7 @@
 
 #include <gmpxx.h>
 
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -29,7 +30,8 @@ struct ExactNumber::Node {
   static ExactNumber of(std::shared_ptr<const Node> node) { return ExactNumber(std::move(node)); }
 };
 
-/// "sqrt", "sin" … as in the model language.
-const char* function_name(ConstantFunction f);
+/// Of each ConstantFunction, as in the model language.
+inline constexpr std::array kFunctionNames{"sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "abs"};
+inline const char* function_name(ConstantFunction f) { return kFunctionNames.at(static_cast<std::size_t>(f)); }
 
 }  // namespace corank

@@ -1,28 +1,14 @@
-// Exact numbers in the model language.
+// Exact numbers as text: in the model language, and in prefix notation.
 #include <algorithm>
-#include <cstdlib>
+#include <charconv>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "corank/core/exact_number_node.h"
 
 namespace corank {
-
-const char* function_name(ConstantFunction f) {
-  switch (f) {
-    case ConstantFunction::sqrt: return "sqrt";
-    case ConstantFunction::sin: return "sin";
-    case ConstantFunction::cos: return "cos";
-    case ConstantFunction::tan: return "tan";
-    case ConstantFunction::asin: return "asin";
-    case ConstantFunction::acos: return "acos";
-    case ConstantFunction::atan: return "atan";
-    case ConstantFunction::exp: return "exp";
-    case ConstantFunction::log: return "log";
-    case ConstantFunction::abs: return "abs";
-  }
-  return "?";
-}
 
 namespace {
 
@@ -89,6 +75,85 @@ std::string text_of(const Node& x) {
   return {};
 }
 
+constexpr int kDeepest = 2000;  // the reader of prefix notation is recursive
+
+void write(const Node& x, std::string& out) {
+  switch (x.kind) {
+    case Kind::rational: out += x.value.get_str() + " "; return;
+    case Kind::pi: out += "pi "; return;
+    case Kind::sum: out += "+ " + x.value.get_str() + " " + std::to_string(x.operands.size()) + " "; break;
+    case Kind::product: out += "* " + x.value.get_str() + " " + std::to_string(x.operands.size()) + " "; break;
+    case Kind::power: out += "^ " + std::to_string(x.exponent) + " "; break;
+    case Kind::function: out += std::string(function_name(x.function)) + " "; break;
+  }
+  for (const NodePtr& operand : x.operands) write(*operand, out);
+}
+
+[[noreturn]] void refuse() { throw std::invalid_argument("expected an exact number in prefix notation"); }
+
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : text_(text) {}
+
+  NodePtr node(int depth = 0) {
+    if (depth > kDeepest) refuse();
+    const std::string_view first = word();
+    Node result;
+    std::size_t operands = 1;
+    if (first == "pi") {
+      result.kind = Kind::pi;
+      operands = 0;
+    } else if (first == "+" || first == "*") {
+      result.kind = first == "+" ? Kind::sum : Kind::product;
+      result.value = rational(word());
+      operands = integer(word());
+      if (operands == 0 || operands > text_.size()) refuse();
+    } else if (first == "^") {
+      result.kind = Kind::power;
+      result.exponent = integer(word());
+    } else if (const auto function = function_of(first)) {
+      result.kind = Kind::function;
+      result.function = *function;
+    } else {
+      result.value = rational(first);
+      operands = 0;
+    }
+    for (std::size_t i = 0; i < operands; ++i) result.operands.push_back(node(depth + 1));
+    return std::make_shared<const Node>(std::move(result));
+  }
+  bool at_end() const { return text_.empty(); }
+
+ private:
+  std::string_view word() {
+    const std::size_t end = text_.find(' ');
+    if (end == std::string_view::npos || end == 0) refuse();
+    const std::string_view result = text_.substr(0, end);
+    text_.remove_prefix(end + 1);
+    return result;
+  }
+  static int integer(std::string_view digits) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size() || value < -1'000'000) refuse();
+    return value;
+  }
+  static mpq_class rational(std::string_view digits) {
+    mpq_class value;
+    if (digits.find_first_not_of("-/0123456789") != std::string_view::npos || value.set_str(std::string(digits), 10) != 0 ||
+        value.get_den() == 0)
+      refuse();
+    value.canonicalize();
+    return value;
+  }
+  static std::optional<ConstantFunction> function_of(std::string_view name) {
+    const auto at = std::ranges::find(kFunctionNames, name);
+    if (at == kFunctionNames.end()) return std::nullopt;
+    return static_cast<ConstantFunction>(at - kFunctionNames.begin());
+  }
+
+  std::string_view text_;
+};
+
 }  // namespace
 
 std::string ExactNumber::text() const { return text_of(*node_); }
@@ -115,11 +180,23 @@ std::optional<std::string> ExactNumber::decimal() const {
   if (digits.size() > 17) return std::nullopt;
   const std::string sign = node_->value < 0 ? "-" : "";
   const auto size = static_cast<long>(digits.size());
-  if (exponent >= 0 && exponent + size <= 20) return sign + digits + std::string(static_cast<std::size_t>(exponent), '0');
+  if (exponent >= 0 && exponent + size <= 20) return sign + digits + std::string(exponent, '0');
   if (exponent >= 0 || exponent < -20) return sign + digits + "e" + std::to_string(exponent);
-  if (-exponent >= size) return sign + "0." + std::string(static_cast<std::size_t>(-exponent - size), '0') + digits;
-  return sign + digits.substr(0, static_cast<std::size_t>(size + exponent)) + "." +
-         digits.substr(static_cast<std::size_t>(size + exponent));
+  if (-exponent >= size) return sign + "0." + std::string(-exponent - size, '0') + digits;
+  return sign + digits.substr(0, size + exponent) + "." + digits.substr(size + exponent);
+}
+
+std::string ExactNumber::prefix() const {
+  std::string out;
+  write(*node_, out);
+  return out;
+}
+
+ExactNumber ExactNumber::from_prefix(std::string_view text) {
+  Reader reader(text);
+  NodePtr node = reader.node();
+  if (!reader.at_end()) refuse();
+  return ExactNumber(std::move(node));
 }
 
 }  // namespace corank

@@ -140,7 +140,7 @@ SharedBytes::~SharedBytes() {
 }
 
 void SharedBytes::forget(std::span<const std::byte> part) {
-  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t page = sysconf(_SC_PAGESIZE);
   const auto begin = static_cast<std::size_t>(part.data() - data_), end = begin + part.size();
   const std::size_t first = (begin + page - 1) / page * page, last = end / page * page;
   if (descriptor_ < 0 || first >= last) return;

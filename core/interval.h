@@ -134,6 +134,9 @@ std::optional<Interval> root(const Interval& x, int p, const Interval& within);
 /// hull{x ∈ within : d·x = n for some n ∈ num, d ∈ den}: extended division; nothing where that is empty.
 std::optional<Interval> divide(const Interval& num, const Interval& den, const Interval& within);
 
+/// 1 or −1, the sign of all its numbers; 0: they have not one, or 0 is among them.
+inline int sign_of(const Interval& x) { return x.lo() > 0 ? 1 : x.hi() < 0 ? -1 : 0; }
+
 std::ostream& operator<<(std::ostream& out, const Interval& x);
 
 }  // namespace corank

@@ -1,6 +1,7 @@
 // Polynomials with exact coefficients, and multiples of sines and cosines of single variables.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,17 +19,20 @@ struct Factor {
   int variable = 0;
   int power = 1;
   Function function = Function::identity;
-  friend bool operator==(const Factor&, const Factor&) = default;
+  friend auto operator<=>(const Factor&, const Factor&) = default;
 };
 
-/// coefficient · Π factors; the factors are sorted by variable, each variable once; none for a constant.
+/// A product of factors, sorted by variable, each variable once; none: 1.
+using Factors = std::vector<Factor>;
+
+/// coefficient · Π factors.
 struct Monomial {
   ExactNumber coefficient;
   Interval enclosure;  ///< of the coefficient; widened where it carries a tolerance
-  std::vector<Factor> factors;
+  Factors factors;
 
   Monomial() = default;
-  Monomial(ExactNumber coefficient, std::vector<Factor> factors);
+  Monomial(ExactNumber coefficient, Factors factors);
   /// c·sin x or c·cos x.
   bool is_trigonometric() const { return factors.size() == 1 && factors[0].function != Function::identity; }
   int degree() const;  ///< a sine or cosine counts as its variable

@@ -25,7 +25,10 @@ enum class SingularityType : std::uint8_t { ro, rpm, ii, ri, io, iim };
 inline constexpr std::array kSingularityTypes{SingularityType::ro, SingularityType::rpm, SingularityType::ii,
                                               SingularityType::ri, SingularityType::io,  SingularityType::iim};
 
-const char* to_string(SingularityType type);  ///< "RO"
+inline const char* to_string(SingularityType type) {
+  constexpr std::array kNames{"RO", "RPM", "II", "RI", "IO", "IIM"};
+  return kNames.at(static_cast<std::size_t>(type));
+}
 
 /// Types as bits.
 using TypeSet = std::uint8_t;
@@ -48,6 +51,7 @@ struct PolynomialMatrix {
 /// Which block of L: all of it, L_y, L_z, L_p, g_v, g_u.
 enum class Block : std::uint8_t { all, forward, inverse, passive, input_ties, output_ties };
 inline constexpr int kBlocks = 6;
+constexpr std::size_t index(Block block) { return static_cast<std::size_t>(block); }
 
 /// The blocks of a mechanism's velocity equation, over the variables of the system of a set of its singularities.
 struct VelocityBlocks {

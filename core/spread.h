@@ -32,7 +32,7 @@ template <class Member, class Number, class Before>
 void halve(std::span<Member> list, Number number, Before before, std::vector<std::pair<double, Member>>& room) {
   room.clear();
   for (const Member member : list) room.emplace_back(number(member), member);
-  const auto half = room.begin() + static_cast<std::ptrdiff_t>(list.size() / 2);
+  const auto half = room.begin() + list.size() / 2;
   std::nth_element(room.begin(), half, room.end(), before);
   for (std::size_t k = 0; k < list.size(); ++k) list[k] = room[k].second;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace corank {
@@ -15,7 +14,7 @@ Variable::Variable(std::string variable_name, VariableKind variable_kind, ExactN
   domain = Interval::hull(lower.enclose(), upper.enclose());
 }
 
-Monomial::Monomial(ExactNumber exact_coefficient, std::vector<Factor> sorted_factors)
+Monomial::Monomial(ExactNumber exact_coefficient, Factors sorted_factors)
     : coefficient(std::move(exact_coefficient)), enclosure(coefficient.enclose()), factors(std::move(sorted_factors)) {}
 
 int Monomial::degree() const {
@@ -42,8 +41,7 @@ void widen(Polynomial& f, double tolerance) {
 int System::dimension() const { return std::max(0, size() - static_cast<int>(equations.size())); }
 
 int System::find(const std::string& variable_name) const {
-  const auto it =
-      std::find_if(variables.begin(), variables.end(), [&](const Variable& v) { return v.name == variable_name; });
+  const auto it = std::ranges::find_if(variables, [&](const Variable& v) { return v.name == variable_name; });
   return it == variables.end() ? -1 : static_cast<int>(it - variables.begin());
 }
 
@@ -53,9 +51,9 @@ constexpr int kMaxPower = 1000;  // powers are evaluated factor by factor
 
 void validate_polynomial(const Polynomial& polynomial, int variables) {
   const std::string place = polynomial.source.empty() ? "a polynomial" : polynomial.source;
-  std::set<std::vector<std::tuple<int, int, Function>>> seen;
+  std::set<Factors> seen;
   for (const Monomial& monomial : polynomial.monomials) {
-    std::vector<std::tuple<int, int, Function>> key;
+    int before = -1;
     for (const Factor& factor : monomial.factors) {
       if (factor.variable < 0 || factor.variable >= variables)
         throw std::invalid_argument(place + ": variable index " + std::to_string(factor.variable) + " is out of range");
@@ -64,11 +62,11 @@ void validate_polynomial(const Polynomial& polynomial, int variables) {
         throw std::invalid_argument(place + ": a power is greater than " + std::to_string(kMaxPower));
       if (factor.function != Function::identity && (monomial.factors.size() != 1 || factor.power != 1))
         throw std::invalid_argument(place + ": a sine or cosine is not the only factor of its monomial");
-      if (!key.empty() && std::get<0>(key.back()) >= factor.variable)
+      if (factor.variable <= before)
         throw std::invalid_argument(place + ": the factors of a monomial are not sorted by variable");
-      key.emplace_back(factor.variable, factor.power, factor.function);
+      before = factor.variable;
     }
-    if (!seen.insert(std::move(key)).second) throw std::invalid_argument(place + ": a monomial occurs twice");
+    if (!seen.insert(monomial.factors).second) throw std::invalid_argument(place + ": a monomial occurs twice");
     if (!monomial.enclosure.is_bounded())
       throw std::invalid_argument(place + ": the coefficient " + monomial.coefficient.text() +
                                   " exceeds double precision's range");
@@ -100,7 +98,7 @@ void System::validate() const {
       throw std::invalid_argument("the angle " + angle.name + " refers to a variable that does not exist");
   }
   if (passage) {
-    const auto rows = static_cast<std::size_t>(passage->equations), columns = static_cast<std::size_t>(passage->columns);
+    const std::size_t rows = passage->equations, columns = passage->columns;
     if (passage->equations < 0 || passage->columns < 0 || passage->jacobian.size() != rows * columns ||
         passage->hessian.size() != columns * (columns + 1) / 2 || passage->multipliers.size() != rows)
       throw std::invalid_argument("the form of a passage has other sizes than it says");

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <set>
 
-#include "corank/certify/implied_equation.h"
 #include "corank/certify/polynomial_algebra.h"
+#include "corank/certify/reduction.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/equation_multiples.h"
 #include "corank/solve/implied_equations.h"

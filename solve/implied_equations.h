@@ -2,7 +2,7 @@
 //
 // They are sought among the sums Σ c·x·f of equations times one variable each: linear elimination, modulo a prime, of all
 // products of three variables from them. What is left over are equations of degree two; those of few terms are kept, and are
-// multiplied in turn. Heuristic: which equation is found proves nothing. certify/implied_equation.h forms it, from the
+// multiplied in turn. Heuristic: which equation is found proves nothing. certify/reduction.h forms it, from the
 // factors given here, in exact arithmetic.
 #pragma once
 

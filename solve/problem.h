@@ -9,7 +9,6 @@
 
 #include "corank/certify/domain.h"
 #include "corank/certify/newton.h"
-#include "corank/certify/partial.h"
 #include "corank/certify/reduction.h"
 #include "corank/core/cover.h"
 #include "corank/solve/branching.h"

@@ -24,10 +24,10 @@ class Tableau {
  public:
   Tableau(const std::vector<Polynomial>& rows, std::vector<std::size_t> members, const std::vector<double>& sizes)
       : members_(std::move(members)) {
-    std::map<certify::Product, std::size_t> columns;
+    std::map<Factors, std::size_t> columns;
     for (const std::size_t i : members_)
       for (const Monomial& m : rows[i].monomials)
-        if (columns.try_emplace(certify::product_of(m), columns.size()).second) {
+        if (columns.try_emplace(m.factors, columns.size()).second) {
           linear_.push_back(is_linear(m));
           sizes_.push_back(size_of(m, sizes));
         }
@@ -36,7 +36,7 @@ class Tableau {
     magnitude_ = entries_;
     for (std::size_t k = 0; k < members_.size(); ++k)
       for (const Monomial& m : rows[members_[k]].monomials) {
-        const std::size_t j = columns[certify::product_of(m)];
+        const std::size_t j = columns[m.factors];
         at(k, j) = m.enclosure.mid() * sizes_[j];
         magnitude_[k * n_ + j] = std::fabs(at(k, j));
       }
@@ -183,12 +183,12 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<Polynomial>& r
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  std::map<certify::Product, std::size_t> first;
+  std::map<Factors, std::size_t> first;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool all_linear = std::all_of(rows[i].monomials.begin(), rows[i].monomials.end(), is_linear);
     for (const Monomial& m : rows[i].monomials)
       if (is_linear(m) == all_linear && !m.factors.empty()) {
-        const auto [known, is_new] = first.try_emplace(certify::product_of(m), i);
+        const auto [known, is_new] = first.try_emplace(m.factors, i);
         if (!is_new) parent[root(i)] = root(known->second);
       }
   }

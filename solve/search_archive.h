@@ -8,7 +8,7 @@
 #include <cereal/types/variant.hpp>
 #include <cereal/types/vector.hpp>
 
-#include "corank/core/exact_number_prefix.h"
+#include "corank/core/exact_number.h"
 #include "corank/solve/byte_archive.h"
 #include "corank/solve/prepared.h"
 #include "corank/solve/shard.h"
@@ -33,11 +33,11 @@ void serialize(auto& archive, Statistics& s) {
 }
 void serialize(auto& archive, Proof::Combination& c) { archive(c.equations, c.dependent, c.y); }
 void serialize(auto& archive, Proof& p) { archive(p.roots, p.steps, p.integers, p.reals, p.combinations); }
-void save(auto& archive, const ExactNumber& x) { archive(to_prefix(x)); }
+void save(auto& archive, const ExactNumber& x) { archive(x.prefix()); }
 void load(auto& archive, ExactNumber& x) {
   std::string text;
   archive(text);
-  x = from_prefix(text);
+  x = ExactNumber::from_prefix(text);
 }
 
 void serialize(auto& archive, Factor& f) { archive(f.variable, f.power, f.function); }

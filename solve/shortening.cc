@@ -68,11 +68,11 @@ bool has_long_number(const Polynomial& f) {
 BestShortening best_shortening(const std::vector<Polynomial>& rows, const std::function<void()>& check) {
   // Only a row that shares a product with another can shorten it (the constant alone is too little, but for a row that is
   // nothing else).
-  std::map<std::vector<int>, std::vector<std::size_t>> with_product;
+  std::map<Factors, std::vector<std::size_t>> with_product;
   std::vector<certify::Products> products;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     products.push_back(has_long_number(rows[i]) ? certify::Products{} : certify::products_of(rows[i]));
-    if (products[i].size() > 1) std::erase(products[i], std::vector<int>{});
+    if (products[i].size() > 1) std::erase(products[i], Factors{});
     for (const auto& product : products[i]) with_product[product].push_back(i);
   }
   BestShortening best;

@@ -85,7 +85,7 @@ TEST(Meeting, IsProvenOnlyWhereARegionOfBothIsCrossed) {
     Box b;
     for (const Interval& side : a) b.emplace_back(side.lo() + boxes.number(-1, 1), side.hi() + boxes.number(1, 2));
     Box common = a;
-    const bool overlap = common[0].intersect(b[0]) && common[1].intersect(b[1]), met = test.meet(a, b, a);
+    const bool overlap = common[0].intersect(b[0]) && common[1].intersect(b[1]), met = test.common(a, b, a).has_value();
     there += overlap && may_meet(common);
     if (!met) continue;
     ++found;

@@ -1,5 +1,5 @@
 // What `partial` asks of the equations that a proof does not speak of: that they hold within the tolerance, and no less.
-#include "corank/certify/partial.h"
+#include "corank/certify/domain.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "corank/certify/preconditioning.h"
+#include "corank/certify/newton.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/tests/system_builder.h"

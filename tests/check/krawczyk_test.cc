@@ -46,6 +46,16 @@ TEST(KrawczyksOperator, HoldsTheZerosForEveryValueOfTheFreeVariables) {
   }
 }
 
+TEST(KrawczyksOperator, ShowsExistenceWhereEachDependentSideHasTheImageInItsInterior) {
+  const std::vector<Row> rows{row({{"1", {{0, 1}}}}), row({{"1", {{1, 1}}}, {"-1", {{2, 1}}}})};
+  Krawczyk newton(rows, 3);
+  const Sides x(3, Enclosure(-1, 1)), narrow(2, Enclosure(-0.5, 0.5));
+  ASSERT_TRUE(newton.set({0, 1}, x, Center::middle));
+  EXPECT_TRUE(newton.is_inside(narrow, x));
+  EXPECT_FALSE(newton.is_inside({narrow[0], x[1]}, x)) << "on the border of the second one";
+  EXPECT_FALSE(newton.is_inside({x[0], narrow[1]}, x));
+}
+
 TEST(KrawczyksOperator, HoldsTheZerosForEveryChoiceWithinTheTolerance) {
   const std::vector<Row> third{row({{"1", {{0, 1}}}, {"-1/3", {}}}, 0.1)};
   Krawczyk newton(third, 1);

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <random>
 
-#include "corank/certify/implied_equation.h"
 #include "corank/certify/polynomial_algebra.h"
+#include "corank/certify/reduction.h"
 #include "corank/check/checker.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/reducer.h"
