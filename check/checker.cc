@@ -27,10 +27,6 @@ namespace {
 
 using Place = Failure::Place;
 
-bool bounded(const Box& box) {
-  return std::ranges::all_of(box, [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); });
-}
-
 bool same(const CoverBox& a, const CoverBox& b) {
   return a.box == b.box && a.verdict == b.verdict && a.free == b.free && a.region == b.region && a.point == b.point &&
          a.kernel_at_most == b.kernel_at_most && a.types == b.types;
@@ -100,8 +96,8 @@ class Checker {
     const std::size_t n = system_.variables.size();
     if (!(cover_.sigma.length > 0 && cover_.sigma.angle > 0)) fail(Place::cover, 0, "sigma is not a positive number");
     const auto valid = [&](const CoverBox& b) {
-      return b.box.size() == n && bounded(b.box) && b.region >= -1 && b.region < static_cast<int>(cover_.regions.size()) &&
-             b.point >= -1 && b.point < static_cast<int>(cover_.exact_points.size()) && b.motion >= -1 &&
+      return is_box(b.box, n) && b.region >= -1 && b.region < static_cast<int>(cover_.regions.size()) && b.point >= -1 &&
+             b.point < static_cast<int>(cover_.exact_points.size()) && b.motion >= -1 &&
              b.motion < static_cast<int>(cover_.self_motions.size()) && b.kernel_at_most >= -1 &&
              b.kernel_at_most <= static_cast<int>(n);
     };
@@ -112,8 +108,7 @@ class Checker {
     for (std::size_t i = 0; i < cover_.points.size(); ++i)
       if (!valid(cover_.points[i])) fail(Place::point, i, fault);
     for (const Box& region : cover_.regions)
-      if (region.size() != n || !bounded(region))
-        fail(Place::cover, 0, "a region does not have one bounded side for each variable");
+      if (!is_box(region, n)) fail(Place::cover, 0, "a region does not have one bounded side for each variable");
   }
 
   void check_asked_types() {

@@ -28,6 +28,7 @@ class Enclosure {
   explicit Enclosure(const Interval& x) : Enclosure(x.lo(), x.hi()) {}
   /// Contains the number.
   explicit Enclosure(const ExactNumber& x);
+  explicit operator Interval() const { return {lo(), hi()}; }  ///< contains it
   static Enclosure whole() { return {-kInfinity, kInfinity}; }
   static Enclosure pi();
 

@@ -3,102 +3,105 @@
 #include <cmath>
 #include <utility>
 
+#include "corank/check/krawczyk.h"
+#include "corank/core/box.h"
+#include "corank/core/dense.h"
+
 namespace corank::check {
 namespace {
 
 using Matrix = std::vector<Sides>;
 
-// An approximate orthogonal basis of eigenvectors, by Jacobi's rotations in doubles: nothing is proven by it.
-std::vector<std::vector<double>> eigenvectors(const Matrix& t) {
-  constexpr int kSweeps = 30;
-  const std::size_t n = t.size();
-  std::vector<std::vector<double>> a(n, std::vector<double>(n)), q(n, std::vector<double>(n, 0.0));
-  for (std::size_t i = 0; i < n; ++i) {
-    q[i][i] = 1;
-    for (std::size_t j = 0; j < n; ++j) a[i][j] = t[i][j].mid();
+std::vector<std::vector<double>> middles(const Matrix& a) {
+  std::vector<std::vector<double>> result;
+  for (const Sides& row : a) {
+    result.emplace_back();
+    for (const Enclosure& entry : row) result.back().push_back(entry.mid());
   }
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        if (!(std::fabs(a[i][j]) > 0)) continue;
-        const double angle = 0.5 * std::atan2(2 * a[i][j], a[j][j] - a[i][i]), c = std::cos(angle), s = std::sin(angle);
-        const auto turn = [&](double& x, double& y) {
-          const double before = x;
-          x = c * x - s * y;
-          y = s * before + c * y;
-        };
-        for (std::size_t k = 0; k < n; ++k) turn(a[k][i], a[k][j]);
-        for (std::size_t k = 0; k < n; ++k) turn(a[i][k], a[j][k]);
-        for (std::size_t k = 0; k < n; ++k) turn(q[k][i], q[k][j]);
-      }
-  return q;
+  return result;
 }
 
-// Vᵀ·H·V; (i, j) and (j, i) are the same number. False: the enclosures of one number are disjoint.
-bool congruent(const Matrix& h, const Matrix& v, Matrix& result) {
+// Vᵀ·H·V; (i, j) and (j, i) are the same number. Nothing: the enclosures of one number are disjoint.
+std::optional<Matrix> congruent(const Matrix& h, const Matrix& v) {
   const std::size_t n = h.size(), k = v.empty() ? 0 : v.front().size();
-  Matrix hv(n, Sides(k));
+  Matrix hv(n, Sides(k)), result(k, Sides(k));
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < k; ++j)
       for (std::size_t l = 0; l < n; ++l) hv[i][j].add_product(h[i][l], v[l][j]);
-  result.assign(k, Sides(k));
   for (std::size_t i = 0; i < k; ++i)
     for (std::size_t j = 0; j < k; ++j)
       for (std::size_t l = 0; l < n; ++l) result[i][j].add_product(v[l][i], hv[l][j]);
   for (std::size_t i = 0; i < k; ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      if (!result[i][j].intersect(result[j][i])) return false;
+      if (!result[i][j].intersect(result[j][i])) return std::nullopt;
       result[j][i] = result[i][j];
     }
-  return true;
-}
-
-// The place of the entry that is farthest from 0, from row and column k on; false: each may be 0.
-bool pivot(const Matrix& a, std::size_t k, std::size_t& row, std::size_t& column) {
-  double best = 0;
-  for (std::size_t i = k; i < a.size(); ++i)
-    for (std::size_t j = k; j < a[i].size(); ++j)
-      if (const double size = a[i][j].mig(); size > best) best = size, row = i, column = j;
-  return best > 0 && std::isfinite(best);
-}
-
-// A basis of ker A as columns; empty rows where none is shown.
-bool kernel(Matrix a, std::size_t n, Matrix& basis) {
-  const std::size_t m = a.size();
-  if (m > n) return false;
-  std::vector<std::size_t> order(n);
-  for (std::size_t j = 0; j < n; ++j) order[j] = j;
-  for (std::size_t k = 0; k < m; ++k) {
-    std::size_t row = k, column = k;
-    if (!pivot(a, k, row, column)) return false;
-    std::swap(a[k], a[row]);
-    for (Sides& r : a) std::swap(r[k], r[column]);
-    std::swap(order[k], order[column]);
-    const Enclosure own = a[k][k];
-    for (std::size_t j = k + 1; j < n; ++j) a[k][j] = quotient(a[k][j], own);
-    for (std::size_t i = 0; i < m; ++i) {
-      if (i == k) continue;
-      const Enclosure factor = -a[i][k];
-      for (std::size_t j = k + 1; j < n; ++j) a[i][j].add_product(factor, a[k][j]);
-    }
-  }
-  basis.assign(n, Sides(n - m));
-  for (std::size_t f = m; f < n; ++f) {
-    basis[order[f]][f - m] = Enclosure(1.0);
-    for (std::size_t i = 0; i < m; ++i) basis[order[i]][f - m] = -a[i][f];
-  }
-  return true;
+  return result;
 }
 
 }  // namespace
 
-std::optional<Inertia> inertia_on_kernel(const std::vector<Sides>& h, std::vector<Sides> a) {
-  const std::size_t n = h.size();
-  Matrix v, t, d;
-  if (!kernel(std::move(a), n, v) || !congruent(h, v, t)) return std::nullopt;
-  Matrix q;
-  for (const std::vector<double>& row : eigenvectors(t)) q.emplace_back(row.begin(), row.end());
-  if (!congruent(t, q, d)) return std::nullopt;
+std::optional<Matrix> kernel_basis(const Matrix& a, const std::vector<int>& dependent, const std::vector<int>& free) {
+  const std::size_t m = a.size(), n = m + free.size();
+  if (dependent.size() != m) return std::nullopt;
+  std::vector<double> middle;
+  for (const Sides& row : a)
+    for (const int d : dependent) middle.push_back(row[d].mid());
+  std::vector<double> y = inverse(middle, m);
+  if (y.size() != m * m) return std::nullopt;
+  drop_noise(y, m);
+  thread_local Matrix t;  // Y·A, whose memory is used again
+  t.resize(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    t[i].assign(n, Enclosure());
+    for (std::size_t b = 0; b < m; ++b)
+      for (std::size_t j = 0; y[i * m + b] != 0 && j < n; ++j)
+        if (!a[b][j].is_zero()) t[i][j].add_product(y[i * m + b], a[b][j]);
+  }
+  for (std::size_t k = 0; k < m; ++k) {
+    const Enclosure pivot = t[k][dependent[k]];
+    if (pivot.has_zero() || !pivot.is_bounded()) return std::nullopt;
+    for (Enclosure& entry : t[k])
+      if (!entry.is_zero()) entry = quotient(entry, pivot);
+    for (std::size_t i = 0; i < m; ++i) {
+      const Enclosure factor = -t[i][dependent[k]];
+      if (i == k || factor.is_zero()) continue;
+      for (std::size_t j = 0; j < n; ++j)
+        if (!t[k][j].is_zero()) t[i][j].add_product(factor, t[k][j]);
+      t[i][dependent[k]] = Enclosure();
+    }
+  }
+  Matrix basis(n, Sides(free.size()));
+  for (std::size_t f = 0; f < free.size(); ++f) {
+    basis[free[f]][f] = Enclosure(1.0);
+    for (std::size_t i = 0; i < m; ++i) basis[dependent[i]][f] = -t[i][free[f]];
+  }
+  return basis;
+}
+
+std::optional<Matrix> form_on_kernel(const Matrix& h, const Matrix& a) {
+  const std::vector<int> dependent = pivots(middles(a), a.size()).columns;
+  const auto basis = kernel_basis(a, dependent, all_but(dependent, static_cast<int>(h.size())));
+  return basis ? congruent(h, *basis) : std::nullopt;
+}
+
+std::optional<Matrix> nearly_diagonal(const Matrix& t) {
+  const int n = static_cast<int>(t.size());
+  Eigen::MatrixXd middle(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) middle(i, j) = t[i][j].mid();
+  const Eigen::MatrixXd vectors = n > 0 ? symmetric_eigen(middle).vectors : middle;
+  if (!vectors.allFinite()) return std::nullopt;
+  Matrix q(n, Sides(n));
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) q[i][j] = Enclosure(vectors(i, j));
+  return congruent(t, q);
+}
+
+std::optional<Inertia> inertia(const Matrix& t) {
+  std::optional<Matrix> diagonal = nearly_diagonal(t);
+  if (!diagonal) return std::nullopt;
+  Matrix& d = *diagonal;
   Inertia result;
   for (std::size_t k = 0; k < d.size(); ++k) {
     if (d[k][k].has_zero() || !d[k][k].is_bounded()) return std::nullopt;
@@ -111,11 +114,20 @@ std::optional<Inertia> inertia_on_kernel(const std::vector<Sides>& h, std::vecto
   return result;
 }
 
+std::optional<Inertia> inertia_on_kernel(const Matrix& h, const Matrix& a) {
+  const std::optional<Matrix> form = form_on_kernel(h, a);
+  return form ? inertia(*form) : std::nullopt;
+}
+
 int determinant_sign(std::vector<Sides> a) {
   int sign = 1;
   for (std::size_t k = 0; k < a.size(); ++k) {
     std::size_t row = k, column = k;
-    if (!pivot(a, k, row, column)) return 0;
+    double best = 0;
+    for (std::size_t i = k; i < a.size(); ++i)
+      for (std::size_t j = k; j < a.size(); ++j)
+        if (const double size = a[i][j].mig(); size > best) best = size, row = i, column = j;
+    if (!(best > 0 && std::isfinite(best))) return 0;
     if (row != k) sign = -sign;
     if (column != k) sign = -sign;
     std::swap(a[k], a[row]);

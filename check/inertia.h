@@ -1,4 +1,4 @@
-// How many directions lead up and down at a critical point: the checker's own.
+// Kernels of matrices, and forms on them: the checker's own.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,25 @@ struct Inertia {
   friend bool operator==(const Inertia&, const Inertia&) = default;
 };
 
-/// Of the form v ↦ vᵀHv on ker A, for every symmetric H and every A in the enclosures (n×n; m×n, row by row): ker A has the
-/// dimension n − m, and the form is regular on it. Nothing where that is not shown.
-///
-/// Theorem (Gauss; Sylvester): eliminating A with pivots none of which may be 0 turns every A into (I, G) but for the
-/// order of its columns, with the same kernel, whose basis V is (−G; I). The form in it is T = VᵀHV. With any real Q, QᵀTQ
-/// = L·D·Lᵀ by elimination without exchange, where no pivot in D may be 0: so Q is regular, and T has as many positive and
-/// negative eigenvalues as D has such entries.
-std::optional<Inertia> inertia_on_kernel(const std::vector<Sides>& h, std::vector<Sides> a);
+/// Of every matrix A in m rows of enclosures, whose columns are as many dependent ones and the free ones: the basis V of its
+/// kernel whose block of the free columns, in their order, is the identity, column by column; nothing where none is shown.
+/// Theorem: (Y·A_D)·V_D = −Y·A_F for every real Y, here about the inverse of A_D. Elimination without a pivot that may be 0
+/// encloses the one solution.
+std::optional<std::vector<Sides>> kernel_basis(const std::vector<Sides>& a, const std::vector<int>& dependent,
+                                               const std::vector<int>& free);
+
+/// The form v ↦ vᵀHv on ker A in such a basis, for every symmetric H and every A in the enclosures (n×n; m×n, row by row):
+/// ker A has the dimension n − m. Nothing where that is not shown.
+std::optional<std::vector<Sides>> form_on_kernel(const std::vector<Sides>& h, const std::vector<Sides>& a);
+
+/// QᵀTQ for every symmetric T in the enclosures, with one real Q, of about its eigenvectors. Nothing where there is no T.
+std::optional<std::vector<Sides>> nearly_diagonal(const std::vector<Sides>& t);
+
+/// Of every symmetric T in the enclosures, which is regular; nothing where that is not shown. Theorem (Gauss; Sylvester):
+/// QᵀTQ = L·D·Lᵀ by elimination without exchange, where no pivot in D may be 0: so Q is regular, and T has as many positive
+/// and negative eigenvalues as D has such entries.
+std::optional<Inertia> inertia(const std::vector<Sides>& t);
+std::optional<Inertia> inertia_on_kernel(const std::vector<Sides>& h, const std::vector<Sides>& a);
 
 /// The sign of the determinant of every matrix in the enclosures, row by row, by the pivots of its elimination; 0 where it
 /// is not shown.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "corank/check/krawczyk.h"
@@ -71,12 +70,8 @@ KernelCheck::KernelCheck(const System& system, const PolynomialMatrix& matrix, c
     : stop_(stop),
       columns_(matrix.columns),
       rows_(entries_of(matrix, system.size(), tolerance)),
-      lengths_(domain_lengths(system)) {
-  std::set<int> arguments;
-  for (const std::vector<Row>& row : rows_)
-    for (const Row& entry : row) arguments.insert(entry.columns().begin(), entry.columns().end());
-  arguments_.assign(arguments.begin(), arguments.end());
-}
+      arguments_(variables_of(rows_)),
+      lengths_(domain_lengths(system)) {}
 
 bool KernelCheck::has_rank(std::size_t s, const Sides& x) const {
   if (s == 0) return true;

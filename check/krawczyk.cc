@@ -3,48 +3,35 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/core/dense.h"
+
 namespace corank::check {
 
-std::vector<double> inverse(std::vector<double> a, std::size_t r) {
-  std::vector<double> b(r * r, 0.0);
-  for (std::size_t i = 0; i < r; ++i) b[i * r + i] = 1;
-  for (std::size_t k = 0; k < r; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < r; ++i)
-      if (std::fabs(a[i * r + k]) > std::fabs(a[pivot * r + k])) pivot = i;
-    if (!(std::fabs(a[pivot * r + k]) > 0)) return {};
-    for (std::size_t j = 0; j < r; ++j) {
-      std::swap(a[k * r + j], a[pivot * r + j]);
-      std::swap(b[k * r + j], b[pivot * r + j]);
-    }
-    const double scale = 1 / a[k * r + k];
-    for (std::size_t j = 0; j < r; ++j) a[k * r + j] *= scale, b[k * r + j] *= scale;
-    for (std::size_t i = 0; i < r; ++i) {
-      const double factor = a[i * r + k];
-      if (i == k || factor == 0) continue;
-      for (std::size_t j = 0; j < r; ++j) a[i * r + j] -= factor * a[k * r + j], b[i * r + j] -= factor * b[k * r + j];
-    }
-  }
-  const bool finite = std::ranges::all_of(b, [](double x) { return std::isfinite(x); });
-  return finite ? b : std::vector<double>();
+std::vector<double> inverse(const std::vector<double>& a, std::size_t r) {
+  using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  std::vector<double> result(r * r);
+  if (r > 0) Eigen::Map<ByRows>(result.data(), r, r) = corank::inverse(Eigen::Map<const ByRows>(a.data(), r, r));
+  const bool finite = std::ranges::all_of(result, [](double x) { return std::isfinite(x); });
+  return finite ? result : std::vector<double>();
 }
 
-Pivots pivots(std::vector<std::vector<double>> t, std::size_t most) {
+Pivots pivots(std::vector<std::vector<double>> t, std::size_t most, double least) {
+  const int m = static_cast<int>(t.size()), n = m > 0 ? static_cast<int>(t[0].size()) : 0;
   Pivots result;
-  std::vector<bool> used(t.size(), false), taken(t.empty() ? 0 : t[0].size(), false);
+  std::vector<bool> used(m, false), taken(n, false);
   while (result.rows.size() < most) {
-    std::size_t row = 0, column = 0;
-    double best = 0;
-    for (std::size_t i = 0; i < t.size(); ++i)
-      for (std::size_t j = 0; j < taken.size(); ++j)
-        if (!used[i] && !taken[j] && std::fabs(t[i][j]) > best) best = std::fabs(t[i][j]), row = i, column = j;
-    if (best == 0) break;
+    int row = 0, column = 0;
+    double best = least;
+    for (int i = 0; i < m; ++i)
+      for (int j = 0; j < n && !used[i]; ++j)
+        if (!taken[j] && std::fabs(t[i][j]) > best) best = std::fabs(t[i][j]), row = i, column = j;
+    if (best == least) break;
     used[row] = taken[column] = true;
     result.rows.push_back(row);
     result.columns.push_back(column);
-    for (std::size_t i = 0; i < t.size(); ++i) {
+    for (int i = 0; i < m; ++i) {
       const double factor = t[i][column] / t[row][column];
-      for (std::size_t j = 0; j < taken.size() && !used[i]; ++j) t[i][j] -= factor * t[row][j];
+      for (int j = 0; j < n && !used[i]; ++j) t[i][j] -= factor * t[row][j];
     }
   }
   return result;

@@ -12,13 +12,14 @@ namespace corank::check {
 void drop_noise(std::vector<double>& y, std::size_t r);
 
 /// The inverse of a row-major r×r matrix in doubles; empty where it is singular to that precision.
-std::vector<double> inverse(std::vector<double> a, std::size_t r);
+std::vector<double> inverse(const std::vector<double>& a, std::size_t r);
 
-/// Complete pivoting: rows and columns of a matrix that make a well-conditioned submatrix, so many at most.
+/// Complete pivoting: rows and columns of a matrix that make a well-conditioned submatrix, so many at most, by pivots larger
+/// than `least`.
 struct Pivots {
-  std::vector<std::size_t> rows, columns;
+  std::vector<int> rows, columns;
 };
-Pivots pivots(std::vector<std::vector<double>> t, std::size_t most);
+Pivots pivots(std::vector<std::vector<double>> t, std::size_t most, double least = 0);
 
 /// Is E·x < x for some x > 0? Then every matrix I − A with |A| ≤ E is regular: the spectral radius of E is below 1. E ≥ 0,
 /// row-major r×r.

@@ -1,8 +1,8 @@
 // Can the output pass the configurations of a box of a workspace boundary, as the box says? (core/passage_form.h)
 //
-// Theorem: certify/passage.h; doc/theory.md, "Barriers". Here N is shown to be regular by a spectral radius below 1, the
-// form to be definite by the pivots of its elimination (a symmetric matrix is positive definite where all of them are
-// positive), and to take both signs by the values in the directions of its elimination in doubles.
+// Theorem: certify/passage.h; doc/theory.md, "Barriers". Here N is shown to be regular, and the form to be definite, by the
+// pivots of eliminations (check/inertia.h), and the form to take both signs by its values at the unit vectors and at about
+// its eigenvectors.
 #pragma once
 
 #include <optional>
@@ -22,19 +22,16 @@ class PassageCheck {
   std::string fault(const CoverBox& box) const;
 
  private:
-  struct Form {
-    std::vector<Sides> s;  ///< reduced
-    Sides slack;
-  };
-  std::optional<Form> form(const Sides& x) const;
+  // The reduced form S over x; nothing where the hypotheses about λ and N are not shown.
+  std::optional<std::vector<Sides>> form(const Sides& x) const;
   bool holds(const CoverBox& box, const Sides& x) const;
   bool contract(Sides& x) const;
 
   StopFlag stop_;
-  std::size_t equations_ = 0, columns_ = 0;
   bool has_form_ = false;
-  std::vector<Row> jacobian_, hessian_, slack_, normal_, rows_;
-  std::size_t system_equations_ = 0;
+  std::size_t columns_ = 0;
+  RowMatrix jacobian_;
+  std::vector<Row> hessian_, slack_, normal_, equations_, inequalities_;
   std::vector<int> multipliers_, arguments_;
   std::vector<double> lengths_;  // of the variables' domains
 };

@@ -144,12 +144,10 @@ class PieceCheck {
 
   // No configuration stands for two pieces.
   void check_distinct_members() {
-    std::vector<Box> hulls(members_.size());
+    std::vector<Box> hulls;
     std::vector<const Box*> boxes;
-    for (std::size_t k = 0; k < members_.size(); ++k) {
-      for (const Enclosure& side : members_[k]) hulls[k].emplace_back(side.lo(), side.hi());
-      boxes.push_back(&hulls[k]);
-    }
+    for (const Sides& x : members_) hulls.emplace_back(x.begin(), x.end());
+    for (const Box& hull : hulls) boxes.push_back(&hull);
     const auto told_apart = [&](std::size_t a, std::size_t b) {
       problem_.stop().poll();
       return apart(members_[a], members_[b]);
@@ -179,8 +177,7 @@ class PieceCheck {
       if (value.has_zero()) cell.mixed |= Mask{1} << g;
       if (value.is_positive()) cell.positive |= Mask{1} << g;
     }
-    cell.hull.clear();
-    for (const Enclosure& side : cell.sides) cell.hull.emplace_back(side.lo(), side.hi());
+    cell.hull = Box(cell.sides.begin(), cell.sides.end());
     return true;
   }
 

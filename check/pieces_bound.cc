@@ -155,7 +155,7 @@ class Bound {
     if (!parts_.bound(c.cell, kSteps)) return false;
     if (is_outside(c.cell)) return true;
     if (find_parts(c)) {
-      for (const Enclosure& side : c.cell.sides) c.hull.emplace_back(side.lo(), side.hi());
+      c.hull = Box(c.cell.sides.begin(), c.cell.sides.end());
       result.push_back(std::move(c));
       return true;
     }
@@ -202,7 +202,7 @@ class Bound {
     for (std::size_t other = 0; other < sheets_.size(); ++other) {
       if (other == sheet || !sheets_.holds(other, sheets_.over(other), cell.sides)) continue;
       FreeSides there;
-      for (const int f : sheets_.free(other)) there.emplace_back(cell.sides[f].lo(), cell.sides[f].hi());
+      for (const int f : sheets_.free(other)) there.emplace_back(cell.sides[f]);
       if (open_parts(there, cells_of_[other], whole_.stop()).empty()) return true;
     }
     return halvings > 0 &&
@@ -320,7 +320,7 @@ class Bound {
     std::vector<std::size_t> link_of;
     for (std::size_t i = 0; i < solutions.size(); ++i) {
       if (solutions[i].empty()) continue;
-      for (const Enclosure& side : solutions[i]) near[i].emplace_back(side.lo(), side.hi());
+      near[i] = Box(solutions[i].begin(), solutions[i].end());
       boxes.push_back(&near[i]);
       link_of.push_back(i);
     }

@@ -2,6 +2,8 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
+
 namespace corank::check {
 namespace {
 
@@ -69,6 +71,11 @@ void Problem::add_domain(int variable, const std::optional<Terms>& value, int si
   }
   if (!value) (sign > 0 ? implied_upper_ : implied_lower_)[place(variable)] = holds;
   conditions_.push_back({Row(without_denominators(sign > 0 ? -difference : difference), place_), holds, variable, image});
+}
+
+bool is_box(const Box& box, std::size_t sides) {
+  const auto is_side = [](const Interval& side) { return side.is_bounded() && side.lo() <= side.hi(); };
+  return box.size() == sides && std::ranges::all_of(box, is_side);
 }
 
 Sides Problem::kept(const Box& box) const {

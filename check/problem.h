@@ -11,6 +11,9 @@
 
 namespace corank::check {
 
+/// Has it so many sides, all of them bounded?
+bool is_box(const Box& box, std::size_t sides);
+
 /// One side of a variable's domain as a condition: row(x) ≥ 0 at every point of the set.
 struct Condition {
   Row row;

@@ -61,9 +61,7 @@ class Script {
   void check_values() const {
     const std::size_t n = problem_.size();
     for (const auto& root : proof_.roots)
-      if (root.size() != n ||
-          !std::ranges::all_of(root, [](const Interval& x) { return x.lo() <= x.hi() && x.is_bounded(); }))
-        refuse("a root does not have one bounded side for each variable that was kept");
+      if (!is_box(root, n)) refuse("a root does not have one bounded side for each variable that was kept");
     const auto within = [](const std::vector<int>& list, std::size_t size) {
       return std::ranges::all_of(list, [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < size; });
     };
@@ -79,7 +77,7 @@ class Script {
     if (at.integer + k >= proof_.integers.size()) refuse("the script ends early");
     const int c = proof_.integers[at.integer + k];
     if (c < 0) refuse("a count is negative");
-    return static_cast<std::size_t>(c);
+    return c;
   }
 
   // Numbers of integers and reals that belong to the step.
@@ -335,7 +333,7 @@ class Replay {
   // False: not shown that the solutions lie between the bounds.
   bool keep(Search& search, const Script& script, const Cursor& at, State& state) {
     std::vector<Interval> kept = state.kept;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(script.integer(at, 0)); ++k) {
+    for (int k = 0; k < script.integer(at, 0); ++k) {
       const int side = script.integer(at, 1 + k);
       Interval& bound = kept[side / 2];
       const double place = script.real(at, k);
@@ -353,7 +351,7 @@ class Replay {
   void branch(const Script& script, const Cursor& at, State state) {
     const std::size_t v = script.integer(at, 0);
     const bool is_split = script.step(at) == Step::split;
-    const std::size_t places = is_split ? 1 : static_cast<std::size_t>(script.integer(at, 1));
+    const std::size_t places = is_split ? 1 : script.integer(at, 1);
     const Cursor* parts = script.parts(at);
     const Interval side = state.kept[v];
     tbb::task_group tasks;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "corank/core/box.h"
@@ -230,6 +231,13 @@ std::vector<Sides> values(const RowMatrix& matrix, const Sides& x) {
     for (const Row& entry : row) result.back().push_back(entry.value(x));
   }
   return result;
+}
+
+std::vector<int> variables_of(const RowMatrix& matrix) {
+  std::set<int> variables;
+  for (const std::vector<Row>& row : matrix)
+    for (const Row& entry : row) variables.insert(entry.columns().begin(), entry.columns().end());
+  return {variables.begin(), variables.end()};
 }
 
 std::vector<double> domain_lengths(const System& system) {

@@ -66,6 +66,8 @@ class Row {
 using RowMatrix = std::vector<std::vector<Row>>;
 RowMatrix entries_of(const PolynomialMatrix& matrix, int variables, double tolerance = 0);
 std::vector<Sides> values(const RowMatrix& matrix, const Sides& x);
+/// Of all entries, ascending.
+std::vector<int> variables_of(const RowMatrix& matrix);
 
 /// Of each variable the width of its domain, 1 where it has none: by their share of it sides of unlike units compare.
 std::vector<double> domain_lengths(const System& system);

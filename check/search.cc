@@ -78,48 +78,28 @@ bool Search::own_combination(const Sides& x, LinearCombination& p, std::vector<d
   const std::size_t m = problem_.equations().size(), n = x.size();
   center.resize(n);
   for (std::size_t j = 0; j < n; ++j) center[j] = x[j].mid();
-  std::vector<double> t(m * n, 0.0), entries, scale(m, 0.0);
+  std::vector<std::vector<double>> jacobian(m, std::vector<double>(n, 0.0));
+  std::vector<double> entries;
   for (std::size_t i = 0; i < m; ++i) {
     const Row& f = problem_.equations()[i];
     f.approximate(center, entries);
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-      t[i * n + static_cast<std::size_t>(f.columns()[k])] = entries[k];
-      scale[i] = std::max(scale[i], std::fabs(entries[k]));
-    }
+    for (std::size_t k = 0; k < entries.size(); ++k) jacobian[i][f.columns()[k]] = entries[k];
   }
-  // Exchange steps: afterwards the dependent columns hold the inverse, column dependent[b] that of equation equations[b].
-  std::vector<unsigned char> row_done(m, 0), column_done(n, 0);
-  p = {};
-  for (std::size_t step = 0; step < std::min(m, n); ++step) {
-    std::size_t row = m, column = n;
-    double best = kRankTolerance;
-    for (std::size_t i = 0; i < m; ++i)
-      for (std::size_t j = 0; j < n && !row_done[i]; ++j)
-        if (const double size = std::fabs(t[i * n + j]) / (scale[i] + 1e-300); !column_done[j] && size > best)
-          best = size, row = i, column = j;
-    if (row == m) break;
-    const double inverse = 1 / t[row * n + column];
-    for (std::size_t j = 0; j < n; ++j) t[row * n + j] *= inverse;
-    t[row * n + column] = inverse;
-    row_done[row] = column_done[column] = 1;
-    for (std::size_t i = 0; i < m; ++i) {
-      const double factor = t[i * n + column];
-      if (i == row || factor == 0) continue;
-      t[i * n + column] = 0;
-      for (std::size_t j = 0; j < n; ++j) t[i * n + j] -= factor * t[row * n + j];
-    }
-    p.equations.push_back(static_cast<int>(row));
-    p.dependent.push_back(static_cast<int>(column));
+  std::vector<std::vector<double>> scaled = jacobian;
+  for (std::vector<double>& row : scaled) {
+    double most = 1e-300;
+    for (const double entry : row) most = std::max(most, std::fabs(entry));
+    for (double& entry : row) entry /= most;
   }
+  const Pivots chosen = pivots(std::move(scaled), std::min(m, n), kRankTolerance);
+  p = {chosen.rows, chosen.columns, {}};
+  for (const int i : chosen.rows)
+    for (const int j : chosen.columns) p.y.push_back(jacobian[i][j]);
   const std::size_t r = p.dependent.size();
-  for (std::size_t a = 0; a < r; ++a)
-    for (std::size_t b = 0; b < r; ++b) {
-      const double y = t[static_cast<std::size_t>(p.equations[a]) * n + static_cast<std::size_t>(p.dependent[b])];
-      if (!std::isfinite(y)) return false;
-      p.y.push_back(y);
-    }
+  p.y = inverse(p.y, r);
+  if (r == 0 || p.y.size() != r * r) return false;
   drop_noise(p.y, r);
-  return r > 0;
+  return true;
 }
 
 bool Search::contract(Sides& x) {

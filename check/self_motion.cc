@@ -128,7 +128,7 @@ std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
     if (tries > kMostTries) return "uniqueness along its self-motion is not shown";
     std::size_t widest = x.size();
     for (const int f : free)
-      if (widest == x.size() || x[f].width() > x[widest].width()) widest = static_cast<std::size_t>(f);
+      if (widest == x.size() || x[f].width() > x[widest].width()) widest = f;
     if (widest == x.size()) return "uniqueness along its self-motion is not shown";
     for (const bool upper : {false, true}) {
       Sides part = x;

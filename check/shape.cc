@@ -45,9 +45,7 @@ class ShapeCheck {
         return fail("a box is not regular: the set is not shown to be smooth");
     const std::size_t n = system_.variables.size();
     for (const SheetBridge& b : shape_.bridges)
-      if (b.region.size() != n ||
-          !std::ranges::all_of(b.region, [](const Interval& s) { return s.is_bounded() && s.lo() <= s.hi(); }))
-        return fail("a bridge does not have one bounded side for each variable");
+      if (!is_box(b.region, n)) return fail("a bridge does not have one bounded side for each variable");
     const Problem problem(system_, cover.reduction, stop_);
     enter("the components");
     const Linking linking(system_, problem, cover, shape_.bridges);

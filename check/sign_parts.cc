@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "corank/check/inertia.h"
 #include "corank/core/box.h"
 
 namespace corank::check {
@@ -12,13 +13,6 @@ namespace {
 constexpr double kShare = 0.53;  // of a segment: its middle may well be a zero of a function
 
 bool is_nonpositive(const Enclosure& x) { return (-x).is_nonnegative(); }
-
-// An m×n matrix of zeros.
-void clear(std::vector<Sides>& matrix, std::size_t m, std::size_t n) {
-  static const Enclosure zero;
-  matrix.resize(m);
-  for (Sides& row : matrix) row.assign(n, zero);
-}
 
 // s·x
 Enclosure turned(const Enclosure& x, int s) { return s > 0 ? x : -x; }
@@ -78,47 +72,24 @@ bool SignParts::slopes(const SignCell& cell, Slopes& result) const {
   const std::vector<int> dependent = all_but(*cell.free, problem_.size());
   const std::vector<Row>& equations = problem_.equations();
   const std::size_t m = equations.size(), n = cell.sides.size();
-  if (dependent.size() != m) return false;
-  thread_local std::vector<Sides> jacobian, t;  // whose memory is used again
+  thread_local std::vector<Sides> jacobian;  // whose memory is used again
   thread_local Sides entries;
-  clear(jacobian, m, n);
-  clear(t, m, n);
-  std::vector<double> middle(m * m);
+  jacobian.resize(m);
   const auto derive = [&](const Row& row, Sides& dense) {
+    dense.assign(n, Enclosure());
     row.derivatives(cell.sides, entries);
     for (std::size_t k = 0; k < entries.size(); ++k) dense[row.columns()[k]] = entries[k];
   };
-  for (std::size_t b = 0; b < m; ++b) {
-    derive(equations[b], jacobian[b]);
-    for (std::size_t a = 0; a < m; ++a) middle[b * m + a] = jacobian[b][dependent[a]].mid();
-  }
-  std::vector<double> y = inverse(middle, m);
-  if (y.size() != m * m) return false;
-  drop_noise(y, m);
-  for (std::size_t a = 0; a < m; ++a)
-    for (std::size_t b = 0; b < m; ++b)
-      for (std::size_t j = 0; y[a * m + b] != 0 && j < n; ++j)
-        if (!jacobian[b][j].is_zero()) t[a][j].add_product(y[a * m + b], jacobian[b][j]);
-  for (std::size_t k = 0; k < m; ++k) {
-    const Enclosure pivot = t[k][dependent[k]];
-    if (pivot.has_zero() || !pivot.is_bounded()) return false;
-    for (Enclosure& entry : t[k])
-      if (!entry.is_zero()) entry = quotient(entry, pivot);
-    for (std::size_t i = 0; i < m; ++i) {
-      const Enclosure factor = -t[i][dependent[k]];
-      if (i == k || factor.is_zero()) continue;
-      for (std::size_t j = 0; j < n; ++j)
-        if (!t[k][j].is_zero()) t[i][j].add_product(factor, t[k][j]);
-      t[i][dependent[k]] = Enclosure();
-    }
-  }
+  for (std::size_t b = 0; b < m; ++b) derive(equations[b], jacobian[b]);
+  const auto basis = kernel_basis(jacobian, dependent, *cell.free);
+  if (!basis) return false;
   result.clear();
   for (const std::size_t g : cell.mixed) {
-    Sides gradient(n), by_free;
+    Sides gradient, by_free;
     derive(functions_[g], gradient);
-    for (const int f : *cell.free) {
-      Enclosure sum = gradient[f];
-      for (std::size_t a = 0; a < m; ++a) sum.add_product(-gradient[dependent[a]], t[a][f]);
+    for (std::size_t f = 0; f < cell.free->size(); ++f) {
+      Enclosure sum = gradient[(*cell.free)[f]];
+      for (const int d : dependent) sum.add_product(gradient[d], (*basis)[d][f]);
       by_free.push_back(sum);
     }
     result.push_back(std::move(by_free));

@@ -58,9 +58,8 @@ class SignParts {
 
   // Lemma 1.
   Part whole(const SignCell& cell, const std::vector<int>& signs) const;
-  // Theorem: the sheet's tangent space is the kernel of the Jacobian J; its basis V, with the identity for the free
-  // variables, solves J_D·V_D = −J_F, and so (Y·J_D)·V_D = −Y·J_F for every Y, by elimination without a pivot that may be 0.
-  // ∂g/∂f along the sheet is ∇g·V_f.
+  // Theorem: the sheet's tangent space is the kernel of the Jacobian; with V its basis whose block of the free variables is
+  // the identity (check/inertia.h), ∂g/∂f along the sheet is ∇g·V_f.
   bool slopes(const SignCell& cell, Slopes& result) const;
   static bool grows(const SignCell& cell, const Slopes& slopes, const Direction& d, const std::vector<int>& signs);
   SignCell face(const SignCell& cell, std::size_t f, bool upper, int steps) const;

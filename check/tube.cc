@@ -12,11 +12,6 @@
 namespace corank::check {
 namespace {
 
-bool is_box(const Box& box, std::size_t n) {
-  return box.size() == n &&
-         std::ranges::all_of(box, [](const Interval& side) { return side.is_bounded() && side.lo() <= side.hi(); });
-}
-
 bool finite(const std::vector<double>& list) {
   return std::ranges::all_of(list, [](double x) { return std::isfinite(x); });
 }
