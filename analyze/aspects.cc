@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "corank/analyze/topology_with_ends.h"
-#include "corank/certify/determinant.h"
+#include "corank/certify/inertia.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"

@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
-#include "corank/certify/determinant.h"
+#include "corank/certify/inertia.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/propagation.h"

@@ -1,8 +1,11 @@
 #include "corank/certify/exact_verification.h"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
+
+#include "corank/certify/polynomial_algebra.h"
 
 namespace corank::certify {
 namespace {
@@ -24,6 +27,13 @@ RationalPolynomial value_of(const Polynomial& f, const ExactPoint& point, const 
 }
 
 using ExactMatrix = std::vector<std::vector<RationalPolynomial>>;
+
+ExactMatrix values_of(const PolynomialMatrix& matrix, const ExactPoint& point, const AlgebraicNumber& t) {
+  ExactMatrix values(matrix.rows);
+  for (int k = 0; k < matrix.rows * matrix.columns; ++k)
+    values[k / matrix.columns].push_back(value_of(matrix.entries[k], point, t));
+  return values;
+}
 
 // Elimination without division: a row a is replaced by pivot · a − a_column · (pivot row), so its rank counts as the pivot
 // is not 0 at t. Nothing where an entry's sign cannot be decided, or where `ended` is true before.
@@ -59,15 +69,14 @@ ExactVerification fails(const std::string& reason) { return {false, reason, -1};
 
 }  // namespace
 
-KernelMatrix kernel_matrix(const System& system) {
-  KernelMatrix matrix;
+PolynomialMatrix kernel_matrix(const System& system) {
+  std::vector<int> unknowns;
   for (int j = 0; j < system.size(); ++j)
-    if (is_kernel(system, j)) matrix.unknowns.push_back(j);
-  matrix.unknowns.resize(matrix.unknowns.size() / static_cast<std::size_t>(system.kernel_vectors));  // ξ¹
-  if (matrix.unknowns.empty()) return matrix;
-  for (std::size_t i = 0; i < system.equations.size(); ++i) {
-    const Polynomial& f = system.equations[i];
-    std::vector<Polynomial> row(matrix.unknowns.size());
+    if (is_kernel(system, j)) unknowns.push_back(j);
+  unknowns.resize(unknowns.size() / system.kernel_vectors);  // ξ¹
+  PolynomialMatrix matrix{0, static_cast<int>(unknowns.size()), {}};
+  for (const Polynomial& f : system.equations) {
+    std::vector<Polynomial> row(unknowns.size());
     const auto place = [&](const Monomial& m) {  // false: not linear in the unknowns
       Monomial entry = m;
       int unknown = -1;
@@ -76,15 +85,15 @@ KernelMatrix kernel_matrix(const System& system) {
         if (unknown >= 0 || x.power != 1 || x.function != Function::identity) return false;
         unknown = x.variable;
       }
-      if (unknown < 0 || unknown > matrix.unknowns.back()) return false;
+      const auto column = std::ranges::find(unknowns, unknown) - unknowns.begin();
+      if (column == matrix.columns) return false;
       std::erase_if(entry.factors, [&](const Factor& x) { return x.variable == unknown; });
-      const auto column = std::ranges::find(matrix.unknowns, unknown) - matrix.unknowns.begin();
       row[column].monomials.push_back(std::move(entry));
       return true;
     };
     if (f.monomials.empty() || !std::ranges::all_of(f.monomials, place)) continue;
-    matrix.equations.push_back(static_cast<int>(i));
-    matrix.rows.push_back(std::move(row));
+    ++matrix.rows;
+    std::ranges::move(row, std::back_inserter(matrix.entries));
   }
   return matrix;
 }
@@ -122,16 +131,11 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point, 
         return fails("the inequality " + g.source + " is not proven to hold");
 
     ExactVerification result{true, "", -1};
-    const KernelMatrix matrix = kernel_matrix(system);
-    if (matrix.rows.empty()) return result;
-    ExactMatrix values;
-    for (const auto& row : matrix.rows) {
-      values.emplace_back();
-      for (const Polynomial& entry : row) values.back().push_back(value_of(entry, point, t));
-    }
-    const auto r = rank(std::move(values), t, ended);
+    const PolynomialMatrix matrix = kernel_matrix(system);
+    if (matrix.rows == 0) return result;
+    const auto r = rank(values_of(matrix, point, t), t, ended);
     if (!r) return fails("the rank of the kernel matrix cannot be decided");
-    result.corank = static_cast<int>(matrix.unknowns.size()) - *r;
+    result.corank = matrix.columns - *r;
     if (result.corank == 0) return fails("the kernel matrix is regular there");
     if (result.corank < system.kernel_vectors) return fails("the kernel has a smaller dimension there");
     return result;
@@ -145,16 +149,11 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point, 
 std::optional<int> exact_rank(const System& system, const PolynomialMatrix& matrix, const ExactPoint& point,
                               const Ended& ended) {
   if (point.coordinates.size() != system.variables.size() || system.coefficient_tolerance > 0) return std::nullopt;
+  for (const int j : variables_of(matrix.entries))
+    if (point.coordinates[j].empty()) return std::nullopt;
   try {
     const AlgebraicNumber t(point.polynomial, point.lower, point.upper);
-    ExactMatrix values(static_cast<std::size_t>(matrix.rows));
-    for (std::size_t k = 0; k < matrix.entries.size(); ++k) {
-      for (const Monomial& m : matrix.entries[k].monomials)
-        for (const Factor& x : m.factors)
-          if (point.coordinates[x.variable].empty()) return std::nullopt;
-      values[k / static_cast<std::size_t>(matrix.columns)].push_back(value_of(matrix.entries[k], point, t));
-    }
-    return rank(std::move(values), t, ended);
+    return rank(values_of(matrix, point, t), t, ended);
   } catch (const std::invalid_argument&) {  // the point defines no number
     return std::nullopt;
   } catch (const std::domain_error&) {  // no rational coefficient, or numbers of too many bits
@@ -180,8 +179,6 @@ bool PointLocation::in(const std::vector<Interval>& box) const {
   }
   return true;
 }
-
-bool lies_in(const ExactPoint& point, const std::vector<Interval>& box) { return PointLocation(point).in(box); }
 
 ExactNumber reach(const ExactPoint& point, const std::vector<Interval>& box) {
   if (point.coordinates.size() != box.size()) throw std::invalid_argument("the point has another number of coordinates");

@@ -16,15 +16,9 @@
 
 namespace corank::certify {
 
-/// M(q): rows of equations, columns of kernel variables; entries are polynomials in the other variables.
-struct KernelMatrix {
-  std::vector<int> equations;  ///< of the system, one for each row
-  std::vector<int> unknowns;   ///< variables of kind kernel, of ξ¹, one for each column
-  std::vector<std::vector<Polynomial>> rows;
-};
-
-/// No rows where the system has no kernel equations.
-KernelMatrix kernel_matrix(const System& system);
+/// M(q): rows of equations, columns of ξ¹'s variables; entries are polynomials in the other variables. No rows where the
+/// system has no kernel equations.
+PolynomialMatrix kernel_matrix(const System& system);
 
 struct ExactVerification {
   bool holds = false;
@@ -43,7 +37,7 @@ ExactVerification verify_exactly(const System& system, const ExactPoint& point, 
 std::optional<int> exact_rank(const System& system, const PolynomialMatrix& matrix, const ExactPoint& point,
                               const Ended& ended = {});
 
-/// Where a point is: asks many boxes about one point.
+/// Where a point is.
 class PointLocation {
  public:
   explicit PointLocation(const ExactPoint& point);
@@ -56,9 +50,6 @@ class PointLocation {
   std::vector<RationalPolynomial> coordinates_;
   std::vector<Interval> enclosures_;
 };
-
-/// The same for one box.
-bool lies_in(const ExactPoint& point, const std::vector<Interval>& box);
 
 /// A rational number r that no known coordinate's distance from any point of its side exceeds: the box lies in the cube of
 /// radius r about the point.

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "corank/certify/numeric.h"
 #include "corank/certify/polynomial_algebra.h"
@@ -12,14 +13,6 @@
 
 namespace corank::certify {
 namespace {
-
-constexpr int kMostTries = 3;  // sizes of a submatrix of a given matrix: its rank is full, or nearly, or of no use
-
-std::vector<Polynomial> entries(const KernelMatrix& matrix) {
-  std::vector<Polynomial> list;
-  for (const auto& row : matrix.rows) list.insert(list.end(), row.begin(), row.end());
-  return list;
-}
 
 // Rows and columns times positive numbers, by which the largest entries of all are near 1: for the choice of pivots. The
 // columns' numbers are sizes of the unknowns, for that of a norm.
@@ -68,18 +61,15 @@ bool is_regular(const IntervalMatrix& m, const std::vector<int>& rows, const std
 
 }  // namespace
 
-KernelBound::KernelBound(const System& system) : least_(1), compiled_(system, entries(kernel_matrix(system))) {
-  const KernelMatrix matrix = kernel_matrix(system);
-  rows_ = static_cast<int>(matrix.rows.size());
-  columns_ = static_cast<int>(matrix.unknowns.size());
-  arguments_ = variables_of(entries(matrix));
+KernelBound::KernelBound(const System& system) : KernelBound(system, kernel_matrix(system)) {
+  least_ = 1;
+  most_tries_ = std::numeric_limits<int>::max();
 }
 
 KernelBound::KernelBound(const System& system, const PolynomialMatrix& matrix)
     : rows_(matrix.rows),
       columns_(matrix.columns),
       least_(std::max(0, matrix.columns - matrix.rows)),
-      most_tries_(kMostTries),
       arguments_(variables_of(matrix.entries)),
       compiled_(system, matrix.entries) {}
 

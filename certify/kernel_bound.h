@@ -7,7 +7,6 @@
 // proven.
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
@@ -35,7 +34,8 @@ class KernelBound {
  private:
   int at_most_in_one(const Box& box) const;
 
-  int rows_ = 0, columns_ = 0, least_ = 0, most_tries_ = std::numeric_limits<int>::max();
+  int rows_, columns_, least_;
+  int most_tries_ = 3;          // sizes of a submatrix of another matrix: its rank is full, or nearly, or of no use
   std::vector<int> arguments_;  // variables in M
   CompiledSystem compiled_;     // value rows: M's entries, row by row
 };

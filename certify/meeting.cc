@@ -121,12 +121,6 @@ Sheet MeetingTest::sheet_about(const Box& near, double radius) {
   return prove(x, c, scales);
 }
 
-std::optional<Box> MeetingTest::piece_about(const Box& near, double radius) {
-  Sheet sheet = sheet_about(near, radius);
-  if (!sheet.proven) return std::nullopt;
-  return std::move(sheet.region);
-}
-
 std::optional<Sheet> MeetingTest::common(const Box& a, const Box& b, const Box& near) {
   Box common = a;
   for (std::size_t j = 0; j < common.size(); ++j)

@@ -32,8 +32,6 @@ class MeetingTest {
   /// region there is for every value of n − m variables exactly one solution. It may join pieces whose regions end where
   /// they touch. Not proven where none was found.
   Sheet sheet_about(const Box& near, double radius);
-  /// Its region.
-  std::optional<Box> piece_about(const Box& near, double radius);
 
  private:
   // A point of the solution set near c, heuristically; sides of no width keep their value. False: none was found within.

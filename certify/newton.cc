@@ -4,14 +4,25 @@
 #include <cmath>
 #include <utility>
 
-#include "corank/certify/newton_buffers.h"
 #include "corank/certify/numeric.h"
+#include "corank/certify/panel.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify {
+
+struct NewtonBuffers {
+  Panel panel;  ///< Y and Y·S
+  std::vector<Interval> slope, values, residual, offset, image, region, gradient;
+  std::vector<double> center;
+  std::vector<unsigned char> is_dependent;
+  std::vector<int> free;
+  std::vector<Interval> stepped;  ///< the box of a step
+  Preconditioner p;               ///< its rows and dependents, without Y
+};
+
 namespace {
 
 void set_center(std::span<const Interval> x, int n, NewtonBuffers& w) {

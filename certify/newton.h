@@ -25,7 +25,7 @@ struct Preconditioner {
 Preconditioner midpoint_preconditioner(const CompiledSystem& system, const std::vector<double>& point,
                                        const std::vector<int>& dependent);
 
-struct NewtonBuffers;  // certify/newton_buffers.h
+struct NewtonBuffers;  // what a step or a proof computes with
 
 /// Memory for the steps and proofs of one thread, so that they need not allocate any: nothing in it means anything. Outlives
 /// its steps, and stays where it is as long as there are some.

@@ -27,7 +27,7 @@ CORANK_WIDE void add_sparse_product(const SplitMatrix& y, const CompiledSystem& 
     const int end = system.row_begin(i + 1);
     for (int k = system.row_begin(i); k < end; ++k) {
       const double l = sparse[k].neg_lo(), h = sparse[k].hi();
-      const std::size_t column = static_cast<std::size_t>(system.column(k)) * rows;
+      const std::size_t column = system.column(k) * rows;
       for (std::size_t a = 0; a < rows; a += kLanes) {
         lanes(negated_lower + column + a) += lanes(positive + a) * l + lanes(negative + a) * h;
         lanes(upper + column + a) += lanes(positive + a) * h + lanes(negative + a) * l;
@@ -44,7 +44,7 @@ CORANK_WIDE void multiply_vector(const SplitMatrix& y, const Interval* x, int co
     Lanes sum_l = {}, sum_h = {};
     for (int b = 0; b < count; ++b) {
       const double l = x[b].neg_lo(), h = x[b].hi();
-      const std::size_t k = static_cast<std::size_t>(b) * y.rows + a;
+      const std::size_t k = b * y.rows + a;
       sum_l += lanes(y.positive + k) * l + lanes(y.negative + k) * h;
       sum_h += lanes(y.positive + k) * h + lanes(y.negative + k) * l;
     }
@@ -65,7 +65,7 @@ CORANK_WIDE void multiply_panel(const double* negated_lower, const double* upper
     Lanes sum_l = {}, sum_h = {};
     for (int j = 0; j < columns; ++j) {
       const double o1 = offset[j].neg_lo(), o2 = offset[j].hi();
-      const std::size_t k = static_cast<std::size_t>(j) * rows + a;
+      const std::size_t k = j * rows + a;
       const Lanes l = lanes(negated_lower + k), h = lanes(upper + k), zero = {};
       const auto exchange = row == diagonal[j];
       const Lanes p_l = exchange ? (minus_one ? l + 1 : zero) : l, p_h = exchange ? (minus_one ? h - 1 : zero) : h;
@@ -113,8 +113,8 @@ bool Panel::set_matrix(const std::vector<double>& y, int r) {
   y_ = y;
   finite_ = std::ranges::all_of(y, [](double entry) { return std::isfinite(entry); });
   r_ = r;
-  stride_ = whole_lanes(static_cast<std::size_t>(r));
-  positive_.resize(static_cast<std::size_t>(r) * stride_);
+  stride_ = whole_lanes(r);
+  positive_.resize(r * stride_);
   negative_.resize(positive_.size());
   for (int b = 0; b < r; ++b) {
     double* const positive = &positive_[index(0, b)];
@@ -130,8 +130,8 @@ bool Panel::set_matrix(const std::vector<double>& y, int r) {
 bool Panel::assign_product(const CompiledSystem& system, const std::vector<int>& equations,
                            const std::vector<Interval>& sparse) {
   n_ = system.variables();
-  negated_lower_.assign(static_cast<std::size_t>(n_) * stride_, 0.0);
-  upper_.assign(static_cast<std::size_t>(n_) * stride_, 0.0);
+  negated_lower_.assign(n_ * stride_, 0.0);
+  upper_.assign(n_ * stride_, 0.0);
   add_sparse_product({positive_.data(), negative_.data(), stride_}, system, equations, sparse.data(), negated_lower_.data(),
                      upper_.data());
   return all_finite(negated_lower_.data(), upper_.data(), upper_.size());
@@ -161,8 +161,7 @@ void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent
     sum_upper_.resize(stride_);
     multiply_panel(negated_lower_.data(), upper_.data(), stride_, offset, n_, diagonal_.data(), minus_one,
                    sum_negated_lower_.data(), sum_upper_.data());
-    for (std::size_t a = 0; a < static_cast<std::size_t>(r_); ++a)
-      sums[a] += Interval(-sum_negated_lower_[a], sum_upper_[a]);
+    for (int a = 0; a < r_; ++a) sums[a] += Interval(-sum_negated_lower_[a], sum_upper_[a]);
     return;
   }
   for (int a = 0; a < r_; ++a) {

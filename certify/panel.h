@@ -49,7 +49,7 @@ class Panel {
   int columns() const { return n_; }
 
  private:
-  std::size_t index(int a, int j) const { return static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(a); }
+  std::size_t index(int a, int j) const { return j * stride_ + a; }
 
   int r_ = 0, n_ = 0;
   std::size_t stride_ = 0;                     // r rounded up to a multiple of 4

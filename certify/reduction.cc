@@ -178,7 +178,7 @@ void Rewriting::carry_domain(int x, const Polynomial& value) {
 std::size_t Rewriting::row_of(int equation) const {
   const auto at = std::ranges::find(origins_, equation);
   CORANK_CHECK(at != origins_.end());
-  return static_cast<std::size_t>(at - origins_.begin());
+  return at - origins_.begin();
 }
 
 std::optional<Polynomial> Rewriting::value_of(int variable, std::size_t row) const {

@@ -14,8 +14,10 @@
 namespace corank::certify {
 namespace {
 
-using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+template <class T>
+using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+template <class T>
+using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
 const mpq_class& rational(const ExactNumber& x) {
   CORANK_CHECK(x.is_rational());
@@ -66,9 +68,8 @@ class Equations {
     return sum;
   }
 
-  // Adds ∂f_row/∂x_j to j's entry of the gradient.
-  void gradient(int row, const std::vector<T>& x, std::vector<T>& gradient) const {
-    std::ranges::fill(gradient, T(0));
+  std::vector<T> gradient(int row, const std::vector<T>& x) const {
+    std::vector<T> gradient(x.size(), T(0));
     const auto& monomials = system_.equations[row].monomials;
     for (std::size_t k = 0; k < monomials.size(); ++k)
       for (const Factor& by : monomials[k].factors) {
@@ -83,6 +84,7 @@ class Equations {
         }
         gradient[by.variable] += product;
       }
+    return gradient;
   }
 
  private:
@@ -106,12 +108,19 @@ Equations<Real> real_equations(const System& system, int bits) {
           }};
 }
 
-Matrix jacobian(const Equations<Real>& f, const std::vector<Real>& x) {
-  Matrix j(f.rows(), static_cast<int>(x.size()));
-  std::vector<Real> gradient(x.size());
+template <class T>
+Vector<T> values(const Equations<T>& f, const std::vector<T>& x) {
+  Vector<T> result(f.rows());
+  for (int row = 0; row < f.rows(); ++row) result(row) = f.value(row, x);
+  return result;
+}
+
+template <class T>
+Matrix<T> jacobian(const Equations<T>& f, const std::vector<T>& x) {
+  Matrix<T> j(f.rows(), x.size());
   for (int row = 0; row < f.rows(); ++row) {
-    f.gradient(row, x, gradient);
-    for (std::size_t k = 0; k < x.size(); ++k) j(row, static_cast<int>(k)) = gradient[k];
+    const std::vector<T> gradient = f.gradient(row, x);
+    for (std::size_t k = 0; k < x.size(); ++k) j(row, k) = gradient[k];
   }
   return j;
 }
@@ -127,21 +136,18 @@ bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits, const End
   Real shortest = far;
   int since = 0;
   for (int step = 0; step < most && !is_over(ended); ++step) {
-    Vector value(f.rows());
-    for (int row = 0; row < f.rows(); ++row) value(row) = f.value(row, x);
-    const Vector shift = jacobian(f, x).completeOrthogonalDecomposition().solve(value);
+    const Vector<Real> shift = jacobian(f, x).completeOrthogonalDecomposition().solve(values(f, x));
     Real length = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
-      x[k] -= shift(static_cast<int>(k));
-      length = std::max(length, abs(shift(static_cast<int>(k))));
+      x[k] -= shift(k);
+      length = std::max(length, abs(shift(k)));
     }
     if (!(length < far)) return false;
     if (2 * length < shortest) shortest = length, since = step;
     if (step - since > kSlowest) return false;
     if (length < enough) {
-      Real residual = 0;
-      for (int row = 0; row < f.rows(); ++row) residual = std::max(residual, abs(f.value(row, x)));
-      return residual < enough;
+      const Vector<Real> residual = values(f, x);
+      return std::all_of(residual.begin(), residual.end(), [&](const Real& value) { return abs(value) < enough; });
     }
   }
   return false;
@@ -175,22 +181,18 @@ std::optional<std::vector<double>> approached(const System& system, std::vector<
   constexpr double kEnough = 1e-13, kZero = 1e-6;  // of an equation's size
   const std::vector<double> sizes = row_sizes(system, x);
   const Equations<double> f(system, [](const ExactNumber& c) { return c.enclose().mid(); });
-  std::vector<double> nearest = x, gradient(x.size());
+  std::vector<double> nearest = x;
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kSteps && least > kEnough && !is_over(ended); ++step) {
-    Eigen::VectorXd value(f.rows());
-    Eigen::MatrixXd jacobian(f.rows(), static_cast<int>(x.size()));
+    const Eigen::VectorXd value = values(f, x);
+    const Eigen::MatrixXd slopes = jacobian(f, x);
     double residual = 0;
-    for (int row = 0; row < f.rows(); ++row) {
-      value(row) = f.value(row, x);
+    for (int row = 0; row < f.rows(); ++row)
       if (value(row) != 0) residual = std::max(residual, std::fabs(value(row)) / sizes[row]);
-      f.gradient(row, x, gradient);
-      for (std::size_t k = 0; k < x.size(); ++k) jacobian(row, static_cast<int>(k)) = gradient[k];
-    }
-    if (!(residual < std::numeric_limits<double>::infinity()) || !jacobian.allFinite()) break;
+    if (!(residual < std::numeric_limits<double>::infinity()) || !slopes.allFinite()) break;
     if (residual < least) least = residual, nearest = x;
-    const Eigen::VectorXd shift = least_squares(jacobian, value).x;
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] -= shift(static_cast<int>(k));
+    const Eigen::VectorXd shift = least_squares(slopes, value).x;
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] -= shift(k);
   }
   if (!(least < kZero)) return std::nullopt;
   return nearest;
@@ -209,21 +211,19 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
   std::vector<Real> c = reals(start);
   const Equations<Real> approximate = real_equations(system, bits);
   constexpr int kSteps = 60;
-  Matrix y;
-  std::vector<Real> step(n);
+  Matrix<Real> y;
   Real shortest = -1;
   for (int k = 0; k < kSteps; ++k) {  // Newton: until the steps shrink no more
     if (is_over(ended)) return std::nullopt;
     y = jacobian(approximate, c).completeOrthogonalDecomposition().pseudoInverse();
+    const Vector<Real> value = values(approximate, c);
     Real length = 0;
     std::vector<Real> next = c;
     for (std::size_t i = 0; i < n; ++i) {
       Real shift = 0;
-      for (std::size_t j = 0; j < n; ++j)
-        shift += y(static_cast<int>(i), static_cast<int>(j)) * approximate.value(static_cast<int>(j), c);
-      step[i] = abs(shift);
+      for (std::size_t j = 0; j < n; ++j) shift += y(i, j) * value(j);
       next[i] -= shift;
-      length = std::max(length, step[i]);
+      length = std::max(length, abs(shift));
     }
     if (!isfinite(length)) return std::nullopt;
     if (shortest >= 0 && length >= shortest) break;
@@ -237,7 +237,7 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
   for (std::size_t i = 0; i < n; ++i) value[i] = f.value(static_cast<int>(i), center);
   for (std::size_t i = 0; i < n; ++i) {
     newton[i] = Range(0);
-    for (std::size_t j = 0; j < n; ++j) newton[i] += Range(y(static_cast<int>(i), static_cast<int>(j))) * value[j];
+    for (std::size_t j = 0; j < n; ++j) newton[i] += Range(y(i, j)) * value[j];
   }
   // X = c + a symmetric range: twice the Newton correction, widened until the image fits.
   const Real tiny = ldexp(Real(1), -bits + 4);
@@ -246,7 +246,7 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
     radius[i] =
         2 * std::max(abs(Real(newton[i].lower())), abs(Real(newton[i].upper()))) + tiny * std::max(Real(1), abs(c[i]));
   constexpr int kInflations = 6;
-  std::vector<Range> offset(n), box(n), image(n), gradient(n);
+  std::vector<Range> offset(n), box(n), image(n);
   for (int k = 0; k < kInflations && !is_over(ended); ++k) {
     for (std::size_t i = 0; i < n; ++i) {
       const Range r(radius[i]);
@@ -255,16 +255,13 @@ std::optional<std::vector<Range>> krawczyk(const System& system, const std::vect
       box[i] = center[i] + offset[i];
     }
     std::vector<std::vector<Range>> rows;
-    for (int row = 0; row < f.rows(); ++row) {
-      f.gradient(row, box, gradient);
-      rows.push_back(gradient);
-    }
+    for (int row = 0; row < f.rows(); ++row) rows.push_back(f.gradient(row, box));
     bool inside = true;
     for (std::size_t i = 0; i < n; ++i) {
       image[i] = -newton[i];
       for (std::size_t j = 0; j < n; ++j) {
         Range entry(i == j ? 1 : 0);
-        for (std::size_t b = 0; b < n; ++b) entry -= Range(y(static_cast<int>(i), static_cast<int>(b))) * rows[b][j];
+        for (std::size_t b = 0; b < n; ++b) entry -= Range(y(i, b)) * rows[b][j];
         image[i] += entry * offset[j];
       }
       image[i] += center[i];
@@ -336,8 +333,8 @@ std::string proven_decimal(const ExactNumber& lower, const ExactNumber& upper, i
     mpz_fdiv_q(last.get_mpz_t(), middle.get_num_mpz_t(), middle.get_den_mpz_t());
     if (lo * scale <= last - 1 || hi * scale >= last + 1) continue;
     std::string text = mpz_class(abs(last)).get_str();
-    if (static_cast<int>(text.size()) <= places) text.insert(0, static_cast<std::size_t>(places) + 1 - text.size(), '0');
-    if (places > 0) text.insert(text.size() - static_cast<std::size_t>(places), ".");
+    if (static_cast<int>(text.size()) <= places) text.insert(0, places + 1 - text.size(), '0');
+    if (places > 0) text.insert(text.size() - places, ".");
     const bool exact = lo == hi && lo * scale == last;
     while (exact && places > 0 && text.back() == '0') text.pop_back();
     if (exact && text.back() == '.') text.pop_back();

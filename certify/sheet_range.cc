@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "corank/certify/newton_buffers.h"
+#include "corank/certify/panel.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
@@ -22,15 +22,10 @@ class FaceRange {
         p_(p),
         piece_(piece),
         w_(w),
-        borrowed_(w.take()),
-        n_(static_cast<std::size_t>(system.variables())),
-        r_(static_cast<std::size_t>(p.rank())),
-        widths_(widths) {
-    std::vector<bool> dependent(n_, false);
-    for (int d : p.dependent) dependent[d] = true;
-    for (std::size_t j = 0; j < n_; ++j)
-      if (!dependent[j]) free_.push_back(static_cast<int>(j));
-  }
+        n_(system.variables()),
+        r_(p.rank()),
+        widths_(widths),
+        free_(all_but(p.dependent, system.variables())) {}
 
   void shrink() {
     if (free_.empty() || !differentiate()) return;
@@ -42,7 +37,7 @@ class FaceRange {
       shrink(side, widths_[side], along);
     }
     for (int k = 0; k < system_.values(); ++k) {
-      const std::size_t side = n_ + static_cast<std::size_t>(k);
+      const std::size_t side = n_ + k;
       if (piece_[side].width() <= widths_[side]) continue;
       differentiate(system_.value_row(k), along);
       shrink(side, widths_[side], along);
@@ -55,15 +50,14 @@ class FaceRange {
 
   // derivatives_[a·k + f] ∋ ∂(dependent a)/∂(free f) on the sheet over the piece. False: no bound.
   bool differentiate() {
-    buffers_.slope.resize(system_.entries());
-    system_.jacobian(piece_, buffers_.slope);
-    buffers_.panel.set_matrix(p_.y, p_.rank());
-    if (!buffers_.panel.assign_product(system_, p_.equations, buffers_.slope)) return false;
+    slope_.resize(system_.entries());
+    system_.jacobian(piece_, slope_);
+    panel_.set_matrix(p_.y, p_.rank());
+    if (!panel_.assign_product(system_, p_.equations, slope_)) return false;
     magnitude_.resize(r_ * r_);
     for (std::size_t a = 0; a < r_; ++a)
       for (std::size_t b = 0; b < r_; ++b)
-        magnitude_[a * r_ + b] =
-            (Interval(a == b ? 1.0 : 0.0) - buffers_.panel.at(static_cast<int>(a), p_.dependent[b])).mag();
+        magnitude_[a * r_ + b] = (Interval(a == b ? 1.0 : 0.0) - panel_.at(static_cast<int>(a), p_.dependent[b])).mag();
     derivatives_.assign(r_ * free_.size(), Interval());
     for (std::size_t f = 0; f < free_.size(); ++f)
       if (!differentiate(f)) return false;
@@ -72,7 +66,7 @@ class FaceRange {
 
   bool differentiate(std::size_t f) {
     constexpr int kSteps = 12;
-    const auto slope = [&](std::size_t a) { return buffers_.panel.at(static_cast<int>(a), free_[f]); };
+    const auto slope = [&](std::size_t a) { return panel_.at(static_cast<int>(a), free_[f]); };
     const auto scale = [&](std::size_t a) { return system_.scales()[p_.dependent[a]]; };
     double largest = 1e-300;
     for (std::size_t a = 0; a < r_; ++a) largest = std::max(largest, slope(a).mag() / scale(a));
@@ -99,10 +93,9 @@ class FaceRange {
 
   // along[f] ∋ the derivative of a value row.
   void differentiate(int row, std::vector<Interval>& along) {
-    system_.jacobian(row, piece_, buffers_.slope);
+    system_.jacobian(row, piece_, slope_);
     gradient_.assign(n_, Interval());
-    for (int e = system_.row_begin(row); e < system_.row_begin(row + 1); ++e)
-      gradient_[system_.column(e)] = buffers_.slope[e];
+    for (int e = system_.row_begin(row); e < system_.row_begin(row + 1); ++e) gradient_[system_.column(e)] = slope_[e];
     for (std::size_t f = 0; f < free_.size(); ++f) {
       along[f] = gradient_[free_[f]];
       for (std::size_t a = 0; a < r_; ++a) along[f] += gradient_[p_.dependent[a]] * derivatives_[a * free_.size() + f];
@@ -149,13 +142,12 @@ class FaceRange {
   const Preconditioner& p_;
   std::vector<Interval>& piece_;
   NewtonWorkspace& w_;
-  const NewtonWorkspace::Borrowed borrowed_;
-  NewtonBuffers& buffers_ = *borrowed_;
+  Panel panel_;
   const std::size_t n_, r_;
   const std::vector<double>& widths_;
-  std::vector<int> free_;
+  const std::vector<int> free_;
   std::vector<double> magnitude_;
-  std::vector<Interval> derivatives_, gradient_;
+  std::vector<Interval> slope_, derivatives_, gradient_;
   std::map<Face, std::vector<Interval>> faces_;
 };
 

@@ -1,26 +1,19 @@
 // Parts of a cell of a proven sheet on which given functions have given signs: which of them are connected, which empty.
 //
 // A cell is the part of a proven sheet over a box X_F of its free variables; g_1 … g_r are functions on it. Its *parts*
-// are the sets of its points where the g_k have given signs, none 0.
+// are the sets of its points where the g_k have given signs, none 0. Proofs: doc/theory.md, "Pieces between singularities".
 //   Lemma 1: where every g_k has one sign all over the cell, its one part is the cell, which is connected.
-//   Lemma 2: let one function g have both signs, s be one of them, and s·∂g/∂f > 0 all over the cell (derivatives
-// along the sheet) for a free variable f or < 0. Then the part of sign s is connected or empty where its part on the
-// face of X_F at f's end where s·g is larger is; and each of its points is joined to one of that face. Proof: along
-// f from any point s·g grows until the face. So the part contracts onto its part on the face. On the face the lemma
-// may be used again, with its other free variables; a face where s·g > 0 all over is connected.
-//   Lemma 3: let there be a direction d of free variables with s_k·∂g_k/∂d > 0 all over the cell for each g_k that
-// has not one sign there. Then each point of the part of signs s is joined in it to a point on the cell's border,
-// which is another cell's, too: the part adds no piece.
-//   Lemma 4: let the dimension be 2 and d as in lemma 3, with s_k·∂g_k/∂d > 0. The sides of X_F through which d points out
-// of it are one arc. Along d every point of the part of signs s comes to that arc without leaving the part: so the part is
-// connected where its points on the arc are, and empty where there are none.
-//   Lemma 5: let the dimension be 2, and e be a limit, of which only the sign 1 counts. Let no function but e and h
-// have both signs, and T(T e) > 0 all over the cell, where T = (∂h/∂f_2, −∂h/∂f_1) is along the level lines of h.
-// Then each point of a part is joined in it to a point on the cell's border. Proof: go along T or −T, so that e does
-// not shrink at first. h stays as it is, and e grows faster and faster: it leaves the cell. Where e alone has both
-// signs, h may be linear in the f's: T is a constant direction. Neighbouring cells of one sheet that share e and h
-// add no piece together, as the way goes on there. Where e is critical, it is all one whether it is positive, 0 or
-// negative there.
+//   Lemma 2: let one function g have both signs, and s·∂g/∂f > 0 all over the cell (derivatives along the sheet), or < 0,
+// for a free variable f. Then the part of sign s is connected, or empty, where its part on the face of X_F at f's end where
+// s·g is larger is: a cell with a free variable less.
+//   Lemma 3: let there be a direction d of free variables with s_k·∂g_k/∂d > 0 all over the cell for each g_k that has both
+// signs. Then the part of signs s adds no piece: each of its points is joined in it to one of another cell.
+//   Lemma 4: let the dimension be 2 and d as in lemma 3. The sides of X_F through which d points out of it are one arc: the
+// part of signs s is connected where its points on the arc are, and empty where there are none.
+//   Lemma 5: let the dimension be 2, and e be a limit, of which only the sign 1 counts. Let no function but e and h have
+// both signs, and T(T e) > 0 all over the cell, where T = (∂h/∂f_2, −∂h/∂f_1) is along the level lines of h; where e alone
+// has both signs, h may be linear in the f's: T is a constant direction. Then the parts add no piece, nor do neighbouring
+// cells of one sheet that share e and h. Where e is critical, it is all one whether it is positive, 0 or negative there.
 #pragma once
 
 #include <optional>

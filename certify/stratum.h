@@ -4,16 +4,13 @@
 // h is a linear function of lengths, cosines and sines. In coordinates q, an angle one of them, the closed stratum's system
 //   F = 0,   e_j = 0 (j ∈ A),   Σ λ_i D_q F_i + Σ_A ν_j D_q e_j + μ D_q h = 0,   ‖(λ, ν, μ)‖ = 1,   μ ≥ 0
 // is square. Let d be the dimension of {F = 0}, and for each A with |A| ≤ d let the solutions of its system in M be known,
-// all of them isolated and of a known kind (StratumTest::kind). Then
+// all of them isolated and of a known kind (StratumTest::kind). Then (doc/theory.md, "The shape of a smooth set")
 // 1. M is a manifold with corners: at each of its points the gradients of F and of the ends that are 0 there are
-//    independent. For more than d ends are 0 nowhere: d of them would be a solution of their system, and there the others
-//    are positive. And were the gradients dependent at a point, its system had a solution with μ = 0.
+//    independent.
 // 2. h is a Morse function on M. With Dh = Σ a_j De_j on the tangent space of {F = 0} at a critical point of the stratum,
 //    a_j = −ν_j/μ, no a_j is 0, and h has a nondegenerate second-order form along the stratum. The point is *counted* where
 //    all a_j > 0: h grows inward across every end. Theorem (Goresky, MacPherson, "Stratified Morse Theory", 1988, part I,
-//    ch. 3): if M is compact, χ(M) = Σ (−1)^index over the counted points, the index being that of h along the stratum: the
-//    normal Morse data are those of a linear function Σ a_j y_j on the corner y ≥ 0, whose lower half link is empty where
-//    all a_j > 0, and else contractible.
+//    ch. 3): if M is compact, χ(M) = Σ (−1)^index over the counted points, the index being that of h along the stratum.
 // 3. Each component of M has a minimum, which is a counted point of index 0.
 #pragma once
 

@@ -47,7 +47,7 @@ void add_term(Polynomial& f, double coefficient, Factors factors) {
 }  // namespace
 
 TubeProver::TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks)
-    : bare_(without_inequalities(system)), compiled_(system), domain_(system), system_(system) {
+    : bare_(without_inequalities(system)), compiled_(system), domain_(system) {
   CORANK_CHECK(matrices.size() == ranks.size());
   for (std::size_t k = 0; k < matrices.size(); ++k) {
     bounds_.emplace_back(system, matrices[k]);
@@ -133,8 +133,9 @@ bool TubeProver::is_free(const Box& piece, double r, const std::vector<double>& 
 bool TubeProver::joins(const Box& a, const Box& b, const Box& within) {
   MeetingTest test(bare_);
   for (const double radius : {1e-9, 1e-7, 1e-5, 1e-4}) {
-    const std::optional<Box> piece = test.piece_about(a, radius);
-    if (piece && contains(*piece, a) && contains(*piece, b) && contains(within, *piece)) return true;
+    const Sheet piece = test.sheet_about(a, radius);
+    if (piece.proven && contains(piece.region, a) && contains(piece.region, b) && contains(within, piece.region))
+      return true;
   }
   return false;
 }

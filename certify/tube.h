@@ -48,7 +48,6 @@ class TubeProver {
   std::vector<KernelBound> bounds_;
   std::vector<int> most_;  // of each matrix, the largest kernel that it may have
   NewtonWorkspace workspace_;
-  System system_;
 };
 
 }  // namespace corank::certify

@@ -122,7 +122,7 @@ SharedBytes::SharedBytes(int descriptor) {
   struct stat info {};
   if (fstat(descriptor, &info) != 0) fail("cannot read from a process");
   if (info.st_size == 0) return;
-  size_ = static_cast<std::size_t>(info.st_size);
+  size_ = info.st_size;
   void* data = mmap(nullptr, size_, PROT_READ, MAP_SHARED, descriptor, 0);
   if (data == MAP_FAILED) fail("cannot read from a process");
   data_ = static_cast<const std::byte*>(data);
@@ -141,7 +141,7 @@ SharedBytes::~SharedBytes() {
 
 void SharedBytes::forget(std::span<const std::byte> part) {
   const std::size_t page = sysconf(_SC_PAGESIZE);
-  const auto begin = static_cast<std::size_t>(part.data() - data_), end = begin + part.size();
+  const std::size_t begin = part.data() - data_, end = begin + part.size();
   const std::size_t first = (begin + page - 1) / page * page, last = end / page * page;
   if (descriptor_ < 0 || first >= last) return;
   // Where it is refused, the memory is given back at the end.
@@ -154,7 +154,7 @@ void ByteSink::write(std::span<const std::byte> bytes) {
     const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) throw std::runtime_error(std::string("no memory for its contents: ") + std::strerror(errno));
-    bytes = bytes.subspan(static_cast<std::size_t>(n));
+    bytes = bytes.subspan(n);
   }
 }
 

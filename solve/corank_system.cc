@@ -19,25 +19,24 @@ double value(const Polynomial& f, const std::vector<double>& x) {
   return sum;
 }
 
-Eigen::MatrixXd values(const certify::KernelMatrix& matrix, const std::vector<double>& x) {
-  Eigen::MatrixXd m(matrix.rows.size(), matrix.unknowns.size());
-  for (std::size_t i = 0; i < matrix.rows.size(); ++i)
-    for (std::size_t j = 0; j < matrix.unknowns.size(); ++j)
-      m(static_cast<int>(i), static_cast<int>(j)) = value(matrix.rows[i][j], x);
+Eigen::MatrixXd values(const PolynomialMatrix& matrix, const std::vector<double>& x) {
+  Eigen::MatrixXd m(matrix.rows, matrix.columns);
+  for (int i = 0; i < matrix.rows; ++i)
+    for (int j = 0; j < matrix.columns; ++j) m(i, j) = value(matrix.entries[i * matrix.columns + j], x);
   return m;
 }
 
 }  // namespace
 
-std::vector<double> singular_values(const certify::KernelMatrix& matrix, const std::vector<double>& x) {
+std::vector<double> singular_values(const PolynomialMatrix& matrix, const std::vector<double>& x) {
   const Eigen::VectorXd s = corank::singular_values(values(matrix, x));
   std::vector<double> result(s.data(), s.data() + s.size());
-  result.resize(matrix.unknowns.size(), 0.0);  // a wide matrix has a kernel anyway
+  result.resize(matrix.columns, 0.0);  // a wide matrix has a kernel anyway
   return result;
 }
 
-CorankSystem corank_system(const System& system, const certify::KernelMatrix& matrix, const std::vector<double>& x, int c) {
-  const int k = static_cast<int>(matrix.unknowns.size());
+CorankSystem corank_system(const System& system, const PolynomialMatrix& matrix, const std::vector<double>& x, int c) {
+  const int k = matrix.columns;
   // Null vectors, then the combinations of them that are the unit vectors in c well-chosen entries.
   const Eigen::MatrixXd null = decompose(values(matrix, x)).v.rightCols(c);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> choice(null.transpose());
@@ -84,12 +83,12 @@ CorankSystem corank_system(const System& system, const certify::KernelMatrix& ma
                                            -1000, 1000);
       result.start.push_back(vectors(j, v));
     }
-    for (const auto& row : matrix.rows) {
+    for (int i = 0; i < matrix.rows; ++i) {
       Polynomial g{{}, "kernel"};
       for (int j = 0; j < k; ++j) {
         const int variable = entry[j];
         if (variable < 0 && pivots[v] != j) continue;  // times 0
-        for (const Monomial& m : row[j].monomials) {
+        for (const Monomial& m : matrix.entries[i * k + j].monomials) {
           Monomial term = renamed(m);
           if (variable >= 0) term.factors.push_back({variable, 1});
           g.monomials.push_back(std::move(term));

@@ -19,9 +19,9 @@ struct CorankSystem {
 
 /// About a point x of the system near which M has c small singular values (Eigen's SVD; heuristic). Nothing can go wrong by
 /// the choice: what is found is verified.
-CorankSystem corank_system(const System& system, const certify::KernelMatrix& matrix, const std::vector<double>& x, int c);
+CorankSystem corank_system(const System& system, const PolynomialMatrix& matrix, const std::vector<double>& x, int c);
 
 /// The singular values of M at x, descending.
-std::vector<double> singular_values(const certify::KernelMatrix& matrix, const std::vector<double>& x);
+std::vector<double> singular_values(const PolynomialMatrix& matrix, const std::vector<double>& x);
 
 }  // namespace corank::solve

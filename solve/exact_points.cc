@@ -53,12 +53,12 @@ std::optional<int> ExactPoints::solution_in(const Box& box) {
   auto point = guess_exactly({zero->begin(), zero->end()}, kGuessBits, kDegree, ended_);
   if (!point) return std::nullopt;
   const certify::ExactVerification verified = certify::verify_exactly(system_, *point, ended_);
-  if (!verified.holds || !certify::lies_in(*point, box)) return std::nullopt;
+  if (!verified.holds || !certify::PointLocation(*point).in(box)) return std::nullopt;
   point->corank = verified.corank;
   return add(std::move(*point));
 }
 
-std::optional<int> ExactPoints::with_kernel(const certify::KernelMatrix& matrix, const Box& hull, int least) {
+std::optional<int> ExactPoints::with_kernel(const PolynomialMatrix& matrix, const Box& hull, int least) {
   const std::vector<double> x = midpoint(hull);
   const std::vector<double> s = singular_values(matrix, x);
   const int k = static_cast<int>(s.size());

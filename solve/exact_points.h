@@ -21,7 +21,7 @@ class ExactPoints {
   /// The place in Cover::exact_points of a verified solution in the box.
   std::optional<int> solution_in(const Box& box);
   /// Of a verified configuration, in or next to the box, where the kernel has that dimension at least.
-  std::optional<int> with_kernel(const certify::KernelMatrix& matrix, const Box& hull, int least);
+  std::optional<int> with_kernel(const PolynomialMatrix& matrix, const Box& hull, int least);
 
  private:
   int add(ExactPoint point);

@@ -66,8 +66,8 @@ class Prover {
 
   void coranks() {
     const InStage stage(control_, Stage::exact);
-    const certify::KernelMatrix matrix = certify::kernel_matrix(system_);
-    if (matrix.rows.empty()) return;
+    const PolynomialMatrix matrix = certify::kernel_matrix(system_);
+    if (matrix.rows == 0) return;
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
       if (cover_.boxes[i].verdict == Verdict::undecided) open.push_back(i);
@@ -99,7 +99,7 @@ class Prover {
   // The gauge of several kernel vectors makes their entries numbers of large degree. The configuration may be one that is
   // found all the same: then the box is known to hold it, and that the kernel has the dimension asked for.
   void configurations() {
-    const certify::KernelMatrix matrix = certify::kernel_matrix(system_);
+    const PolynomialMatrix matrix = certify::kernel_matrix(system_);
     int futile = 0;
     std::vector<int> found;
     for (const CoverBox& point : cover_.points) {
@@ -198,7 +198,7 @@ class Prover {
       if (!around.complete()) return;
       if (around.count(Verdict::undecided) > 0) continue;
       core = with_values(core);
-      if (!certify::lies_in(point, core)) return;
+      if (!certify::PointLocation(point).in(core)) return;
       if (cover_.proof && !around.proof) return;
       CoverBox middle{std::move(core), Verdict::undecided, {}};
       middle.point = index;

@@ -43,10 +43,10 @@ void describe_corank(const System& system, result::Result& result) {
   std::vector<const CoverBox*> boxes;
   for (const CoverBox& box : result.cover.boxes)
     if (box.verdict == Verdict::undecided && box.reason == Reason::degenerate_set) boxes.push_back(&box);
-  const certify::KernelMatrix matrix = certify::kernel_matrix(system);
-  if (boxes.empty() || matrix.rows.empty()) return;
+  const PolynomialMatrix matrix = certify::kernel_matrix(system);
+  if (boxes.empty() || matrix.rows == 0) return;
   const std::size_t n = std::min(boxes.size(), kMostLookedAt);
-  std::vector<std::size_t> of_corank(matrix.unknowns.size() + 1, 0);
+  std::vector<std::size_t> of_corank(matrix.columns + 1, 0);
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<double> x = midpoint(boxes[i * boxes.size() / n]->box);
     const std::vector<double> s = solve::singular_values(matrix, x);

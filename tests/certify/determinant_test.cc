@@ -1,4 +1,4 @@
-#include "corank/certify/determinant.h"
+#include "corank/certify/inertia.h"
 
 #include <gtest/gtest.h>
 

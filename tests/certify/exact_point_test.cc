@@ -11,6 +11,7 @@
 #include "corank/certify/blow_up.h"
 #include "corank/certify/distinct.h"
 #include "corank/certify/exact_verification.h"
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/refinement.h"
 #include "corank/core/rounding.h"
 #include "corank/tests/system_builder.h"
@@ -251,12 +252,20 @@ TEST(KernelMatrix, HasTheEquationsThatAreLinearAndHomogeneousInTheFirstKernelVec
   b.equation({{"1", {{x, 1}, {u, 2}}}, {"1", {{v, 1}}}});
   b.equation({{"1", {{u, 1}, {v, 1}}}});
   b.equation({{"1", {{x, 1}, {u, 1}}}, {"1", {{x, 1}}}});
-  EXPECT_EQ(kernel_matrix(b.system()).equations, std::vector<int>{0});
+  const PolynomialMatrix one = kernel_matrix(b.system());
+  EXPECT_EQ(one.rows, 1);
+  EXPECT_EQ(one.columns, 2);
+  ASSERT_EQ(one.entries.size(), 2u);
+  EXPECT_EQ(products_of(one.entries[0]), (Products{{{x, 2}}}));
+  EXPECT_EQ(products_of(one.entries[1]), (Products{Factors{}}));
   System two = b.system();  // u is ξ¹, v is ξ²
   two.kernel_vectors = 2;
   two.equations.push_back(test::SystemBuilder::polynomial({{"1", {{x, 1}, {u, 1}}}}));
   two.equations.push_back(test::SystemBuilder::polynomial({{"1", {{x, 1}, {v, 1}}}}));
-  EXPECT_EQ(kernel_matrix(two).equations, std::vector<int>{4});
+  const PolynomialMatrix of_first = kernel_matrix(two);
+  EXPECT_EQ(of_first.rows, 1);
+  ASSERT_EQ(of_first.entries.size(), 1u);
+  EXPECT_EQ(products_of(of_first.entries[0]), (Products{{{x, 1}}}));
 }
 
 TEST(KernelMatrix, OfSeveralVectorsAsksForAKernelOfTheirNumber) {
@@ -278,10 +287,10 @@ TEST(KernelMatrix, OfSeveralVectorsAsksForAKernelOfTheirNumber) {
 TEST(LiesIn, IsDecidedBetweenNeighbouringDoubles) {
   const ExactPoint point{{q("-2"), q("0"), q("1")}, q("1"), q("2"), {{q("0"), q("1")}}, -1, 0};  // √2
   const double above = 0x1.6a09e667f3bcdp+0, below = 0x1.6a09e667f3bccp+0;
-  EXPECT_TRUE(lies_in(point, {{below, above}}));
-  EXPECT_FALSE(lies_in(point, {{1.0, below}}));
-  EXPECT_FALSE(lies_in(point, {{above, 2.0}}));
-  EXPECT_FALSE(lies_in(point, {{1.5, 2.0}}));
+  EXPECT_TRUE(PointLocation(point).in({{below, above}}));
+  EXPECT_FALSE(PointLocation(point).in({{1.0, below}}));
+  EXPECT_FALSE(PointLocation(point).in({{above, 2.0}}));
+  EXPECT_FALSE(PointLocation(point).in({{1.5, 2.0}}));
 }
 
 TEST(BlowUp, LeavesNoFaceWithASolutionAtADoubleRoot) {

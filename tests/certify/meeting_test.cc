@@ -104,15 +104,15 @@ TEST(PieceAbout, HoldsOneSolutionOverEachOfItsValues) {
   for (int k = 0; k < 500; ++k) {
     const double turn = boxes.number(-3.2, 3.2), radius = boxes.number(0.001, 2);
     const Box near{Interval(5 * std::cos(turn)), Interval(5 * std::sin(turn))};
-    const auto region = test.piece_about(near, radius);
-    if (!region) continue;
+    const Sheet piece = test.sheet_about(near, radius);
+    if (!piece.proven) continue;
     ++found;
     const auto graph_over = [&](std::size_t f) {
       for (int i = 0; i <= 20; ++i) {
-        const double x = (*region)[f].lo() + i / 20.0 * (*region)[f].width(), room = 25 - x * x;
+        const double x = piece.region[f].lo() + i / 20.0 * piece.region[f].width(), room = 25 - x * x;
         if (room < 0) return false;
         const double y = std::sqrt(room);
-        if ((*region)[1 - f].contains(y) + (*region)[1 - f].contains(-y) != 1) return false;
+        if (piece.region[1 - f].contains(y) + piece.region[1 - f].contains(-y) != 1) return false;
       }
       return true;
     };

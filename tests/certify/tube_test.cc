@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "corank/certify/determinant.h"
+#include "corank/certify/inertia.h"
 #include "corank/core/rounding.h"
 #include "corank/tests/system_builder.h"
 

@@ -65,7 +65,7 @@ TEST_P(ExactThreeSlider, WithEqualRodsHasSixProvenPoints) {
     ASSERT_GE(box.point, 0);
     const auto& point = cover.exact_points[static_cast<std::size_t>(box.point)];
     EXPECT_TRUE(certify::verify_exactly(system, point).holds);
-    EXPECT_TRUE(certify::lies_in(point, box.box));
+    EXPECT_TRUE(certify::PointLocation(point).in(box.box));
     EXPECT_EQ(point.corank, 1);
     // The box of a degenerate point lies where the blow-up has shown it alone.
     if (box.verdict == Verdict::exact) {
@@ -118,7 +118,7 @@ TEST_P(ExactDextar, HasNoUndecidedBoxThatNoPointExplains) {
       EXPECT_EQ(box.verdict, Verdict::undecided);
     }
     ASSERT_GE(box.point, 0);  // it may hold a kernel of dimension 2 only because it holds such a point
-    EXPECT_TRUE(certify::lies_in(cover.exact_points[static_cast<std::size_t>(box.point)], box.box));
+    EXPECT_TRUE(certify::PointLocation(cover.exact_points[static_cast<std::size_t>(box.point)]).in(box.box));
   }
   EXPECT_LE(cover.count(Verdict::undecided), 4u);
 }
