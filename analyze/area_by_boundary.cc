@@ -212,7 +212,7 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
 bool has_plane_of_lengths(const symbolic::Mechanism& model) {
   const auto is_length = [&](const std::string& name) {
     const int k = model.find_coordinate(name);
-    return k >= 0 && model.coordinates()[static_cast<std::size_t>(k)].kind == symbolic::CoordinateKind::length;
+    return k >= 0 && model.coordinates()[k].kind == symbolic::CoordinateKind::length;
   };
   return model.outputs().size() == 2 && std::all_of(model.outputs().begin(), model.outputs().end(), is_length);
 }

@@ -1,4 +1,5 @@
-// The area of a workspace in the plane of two outputs, from a cover of its boundary.
+// The area of a workspace in the plane of two outputs, in proven bounds: from a cover of its boundary, or by dividing the
+// plane.
 //
 // W = { (x, y) : a configuration within the limits has these outputs } is compact where its coordinates have ranges.
 // Theorem: let B hold the outputs of all generalized singularities (symbolic/boundary.h), and let no configuration be at
@@ -9,13 +10,19 @@
 // rectangle about B is not in W, since W is compact and the points of W furthest out are in ∂W.
 #pragma once
 
+#include <functional>
 #include <optional>
 
-#include "corank/analyze/workspace_area.h"
+#include "corank/core/system.h"
 #include "corank/solve/control.h"
 #include "corank/study/question.h"
 
 namespace corank::analyze {
+
+struct AreaBounds {
+  double lo = 0, hi = 0;  ///< the area is in [lo, hi]
+  std::size_t cells = 0;  ///< examined
+};
 
 struct BoundaryAreaOptions {
   double fineness = 1.0 / 1500;  ///< σ of the boundary's boxes, in shares of the workspace's larger side
@@ -28,6 +35,23 @@ struct BoundaryAreaOptions {
 /// cover that a limit has ended.
 std::optional<AreaBounds> area_by_boundary(const study::Question& question, const BoundaryAreaOptions& options,
                                            solve::Control& control);
+
+struct AreaOptions {
+  double share = 0.02;             ///< the bounds may differ by so much of the upper one
+  std::size_t max_cells = 20'000;  ///< that are examined
+  std::function<bool()> stop{};    ///< ends the work, with what is proven so far
+};
+
+/// Is every point of the cell an output (1), none (−1)? 0: that is not known after so many tries.
+int membership(const System& configurations, int x, int y, const Interval& cell_x, const Interval& cell_y, int tries);
+
+/// The same for any mechanism. The plane is divided into cells, the largest undecided one first. A cell is
+///   in    where newton_prove (certify/newton.h), with the outputs free in the cell and the coordinates that are left over
+///         fixed at values, shows one configuration for every output in it, and DomainTest that all of these are inside;
+///   out   where projections, Newton steps and bisection leave nothing of the configurations over it.
+/// So Σ in ≤ area(W) ≤ Σ in + Σ undecided; sums are rounded outward, and cells meet in edges, which have no area.
+/// Of a system of configurations (symbolic::configurations) with exact coefficients; x and y are variables of it.
+AreaBounds workspace_area(const System& configurations, int x, int y, const AreaOptions& options = {});
 
 /// Are the model's outputs two lengths?
 bool has_plane_of_lengths(const symbolic::Mechanism& model);

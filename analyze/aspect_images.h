@@ -2,6 +2,7 @@
 #pragma once
 
 #include "corank/analyze/pieces.h"
+#include "corank/core/ended.h"
 
 namespace corank::analyze {
 
@@ -17,5 +18,19 @@ struct PieceImages {
 /// (newton_prove with x and y free) on which all functions have the piece's signs, and a solution in it lies in a cell that
 /// is one part of the piece: the graph over G is connected and without zeros of the functions, so it is in the piece.
 PieceImages images(SignCells& cells, const Pieces& pieces, int x, int y, int rows, solve::Control& control);
+
+/// Pieces of a set of dimension 2 as polygons in some of its coordinates, to be looked at: nothing is proven by them.
+struct PieceDrawing {
+  /// Points of one value for each coordinate; an angle's may be beyond its range by less than a turn.
+  using Polygon = std::vector<std::vector<double>>;
+  std::vector<std::string> coordinates;
+  std::vector<bool> is_angle;
+  std::vector<std::vector<Polygon>> pieces;  ///< in the order of Pieces::representatives
+};
+
+/// `coordinates`: lengths and angles of the cells' system. Empty where the set has not two dimensions, or there is no such
+/// coordinate; nothing where it was `ended`.
+std::optional<PieceDrawing> draw(SignCells& cells, const Pieces& pieces, const std::vector<std::string>& coordinates,
+                                 const Ended& ended);
 
 }  // namespace corank::analyze

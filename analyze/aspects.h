@@ -13,7 +13,6 @@
 
 #include "corank/analyze/aspect_cusps.h"
 #include "corank/analyze/aspect_images.h"
-#include "corank/analyze/aspects_drawing.h"
 
 namespace corank::result {
 struct PiecesFile;

@@ -1,4 +1,4 @@
-#include "corank/analyze/aspects_drawing.h"
+#include "corank/analyze/aspect_images.h"
 
 #include <cmath>
 #include <numbers>

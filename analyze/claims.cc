@@ -1,10 +1,10 @@
-#include "corank/analyze/claims.h"
+#include "corank/analyze/clearance.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "corank/analyze/witness.h"
+#include "corank/analyze/nearest.h"
 #include "corank/core/rounding.h"
 #include "corank/result/motion_words.h"
 #include "corank/result/verification.h"

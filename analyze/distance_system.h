@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "corank/solve/prepared.h"
+#include "corank/solve/options.h"
 
 namespace corank::analyze {
 

@@ -10,7 +10,11 @@
 #include <optional>
 #include <vector>
 
-#include "corank/solve/prepared.h"
+#include "corank/certify/domain.h"
+#include "corank/certify/newton.h"
+#include "corank/certify/reduction.h"
+#include "corank/solve/options.h"
+#include "corank/solve/preconditioner.h"
 
 namespace corank::analyze {
 
@@ -48,5 +52,21 @@ Nearest nearest(const solve::Prepared& prepared, const std::vector<Polynomial>& 
 /// `boxes`: processed at most; 0: no limit.
 Cover search_briefly(System system, std::uint64_t solutions, std::uint64_t boxes, int threads,
                      const solve::Control& control);
+
+/// A solution that exists. In the search domain and satisfying the inequalities: for its free variables' values, which are points, exactly one
+/// solution in the sheet's region, and it lies in the image (certify::newton_prove).
+struct Witness {
+  certify::Sheet sheet;
+  std::vector<int> free;
+};
+
+/// The box in all variables of the system that was reduced. `compiled`: begins with the reduced system's variables; its
+/// values are those of the eliminated ones (solve::values_of).
+Box lifted(const certify::CompiledSystem& compiled, const certify::Reduction& reduction, const Box& x);
+
+/// Near the point; nothing where it cannot be proven.
+std::optional<Witness> prove_near(const certify::CompiledSystem& system, const certify::DomainTest& domain,
+                                  const std::vector<double>& point, solve::PreconditionerFactory& preconditioners,
+                                  certify::NewtonWorkspace& workspace);
 
 }  // namespace corank::analyze

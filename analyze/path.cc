@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "corank/analyze/path_graph.h"
-#include "corank/analyze/path_sampling.h"
 #include "corank/analyze/path_space.h"
 #include "corank/analyze/tube_builder.h"
 #include "corank/core/rounding.h"

@@ -1,4 +1,4 @@
-#include "corank/analyze/path_sampling.h"
+#include "corank/analyze/tube_builder.h"
 
 #include <ompl/base/ConstrainedSpaceInformation.h>
 #include <ompl/base/Constraint.h>

@@ -1,5 +1,5 @@
 // Without OMPL no way is sampled.
-#include "corank/analyze/path_sampling.h"
+#include "corank/analyze/tube_builder.h"
 
 namespace corank::analyze {
 

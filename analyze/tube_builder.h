@@ -59,4 +59,10 @@ class TubeBuilder {
   double hope_ = 0;  // a step's length that may be proven
 };
 
+/// A way whose margins (PathSpace::state) are at least `margin` and whose signs are those of its start; nothing where none
+/// was found in so many seconds.
+std::optional<TubeBuilder::Points> sampled_way(const PathSpace& space, const PathSpace::Point& from,
+                                               const PathSpace::Point& to, double margin, double seconds,
+                                               const solve::Control& control);
+
 }  // namespace corank::analyze

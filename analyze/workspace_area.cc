@@ -1,4 +1,4 @@
-#include "corank/analyze/workspace_area.h"
+#include "corank/analyze/area_by_boundary.h"
 
 #include <Eigen/LU>
 #include <algorithm>

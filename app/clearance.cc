@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "corank/analyze/best_center.h"
-#include "corank/analyze/claims.h"
+#include "corank/analyze/clearance.h"
 #include "corank/analyze/clearance_map.h"
 #include "corank/app/box_files.h"
 #include "corank/app/json_option.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "corank/app/exit_status.h"
-#include "corank/solve/machine_memory.h"
+#include "corank/solve/memory.h"
 
 namespace corank::app {
 

@@ -5,7 +5,7 @@
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/analyze/aspects.h"
 #include "corank/analyze/best_center.h"
-#include "corank/analyze/claims.h"
+#include "corank/analyze/clearance.h"
 #include "corank/analyze/clearance_map.h"
 #include "corank/analyze/path.h"
 #include "corank/analyze/topology.h"

@@ -5,7 +5,7 @@
 
 #include <pybind11/stl.h>
 
-#include "corank/solve/machine_memory.h"
+#include "corank/solve/memory.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/printer.h"

@@ -5,7 +5,7 @@
 #include "corank/core/cover.h"
 #include "corank/core/singularity_types.h"
 #include "corank/solve/control.h"
-#include "corank/solve/prepared.h"
+#include "corank/solve/options.h"
 
 namespace corank::solve {
 

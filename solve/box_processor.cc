@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "corank/core/check.h"
-#include "corank/solve/chart.h"
+#include "corank/solve/preconditioner.h"
 
 namespace corank::solve {
 namespace {
@@ -132,7 +132,7 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
   auto near = local_solution(problem_, midpoint(x), kRankShare * share, problem_.relative_width(x) + kReach * share);
   if (!near || near->rank >= std::min(system.equations(), system.variables())) return std::nullopt;
   for (int j = 0; j < system.variables(); ++j) {
-    const double at = near->x[static_cast<std::size_t>(j)], room = 2 * share * system.scales()[static_cast<std::size_t>(j)];
+    const double at = near->x[j], room = 2 * share * system.scales()[j];
     if (at < x[j].lo() - room || at > x[j].hi() + room) return std::nullopt;
   }
   if (breaks_inequality(problem_, near->x, share)) return std::nullopt;
@@ -164,11 +164,20 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   // Where a proof is near, the solutions in x are a sheet over the free variables: cutting along those alone gives parts
   // whose sheets do not overlap.
   const int free = widest_free(x);
-  const auto relative_width = [&](int j) { return x[j].width() / problem_.compiled.scales()[static_cast<std::size_t>(j)]; };
+  const auto relative_width = [&](int j) { return x[j].width() / problem_.compiled.scales()[j]; };
   if (free >= 0 && split >= 0 && split_point(x[free]) &&
       relative_width(free) > problem_.tuning.free_share * relative_width(split))
     return free;
   return split;
+}
+
+std::array<Waiting, 2> BoxProcessor::halves(Waiting box) const {
+  const Interval side = box.x[split_variable_];
+  const double at = *split_point(side);
+  Waiting upper{box.x, box.share * (1 - kBisectionPoint), {}};
+  upper.x[split_variable_] = Interval(at, side.hi());
+  box.x[split_variable_] = Interval(side.lo(), at);
+  return {Waiting{std::move(box.x), box.share * kBisectionPoint, {}}, std::move(upper)};
 }
 
 BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpone, double share) {

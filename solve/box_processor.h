@@ -4,14 +4,15 @@
 // All that deletes, shrinks or certifies is a call into certify/; this file only decides what to try when.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "corank/solve/contractor.h"
 #include "corank/solve/local_solution.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/problem.h"
+#include "corank/solve/propagation.h"
 #include "corank/solve/shard.h"
 #include "corank/solve/slicer.h"
 
@@ -41,6 +42,8 @@ class BoxProcessor {
   /// Adds x, which nothing could be proven of, to the found boxes.
   void give_up(std::span<const Interval> x, Reason reason) { add_unproven(x, Verdict::undecided, reason); }
   int split_variable() const { return split_variable_; }
+  /// The lower and the upper part of a box that is to be bisected, without nodes.
+  std::array<Waiting, 2> halves(Waiting box) const;
 
  private:
   // The widest side that Newton leaves free, −1 where there is none.

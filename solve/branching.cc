@@ -79,7 +79,7 @@ BranchingRule::BranchingRule(const System& system, double kernel_weight, int ker
     if (defined[j]) weight_[j] = 0;
   }
   for (const Polynomial& f : system.equations)
-    if (const int j = only_variable(f); j >= 0) weight_[static_cast<std::size_t>(j)] = kAloneWeight;
+    if (const int j = only_variable(f); j >= 0) weight_[j] = kAloneWeight;
   if (std::all_of(weight_.begin(), weight_.end(), [](double w) { return w == 0; }))
     std::fill(weight_.begin(), weight_.end(), 1.0);
 }
@@ -91,18 +91,18 @@ std::optional<double> split_point(const Interval& side) {
 
 std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, std::span<const Interval> x) const {
   std::vector<double> result(weight_.size(), 0.0), part(weight_.size());
-  std::vector<Interval> jacobian(static_cast<std::size_t>(system.entries()));
+  std::vector<Interval> jacobian(system.entries());
   system.jacobian(x, jacobian);
   for (int row = 0; row < system.equations(); ++row) {
     const int begin = system.row_begin(row), end = system.row_begin(row + 1);
     double sum = 0;
     for (int k = begin; k < end; ++k) {
-      const auto j = static_cast<std::size_t>(system.column(k));
-      sum += part[j] = jacobian[static_cast<std::size_t>(k)].mag() * x[j].width();
+      const std::size_t j = system.column(k);
+      sum += part[j] = jacobian[k].mag() * x[j].width();
     }
     if (!(sum > 0 && std::isfinite(sum))) continue;
     for (int k = begin; k < end; ++k) {
-      const auto j = static_cast<std::size_t>(system.column(k));
+      const std::size_t j = system.column(k);
       result[j] += std::sqrt(part[j] / sum);
     }
   }

@@ -38,7 +38,7 @@ class BranchingRule {
   /// How much wider than another variable, in typical sizes, x_j may be when a box is small enough to be put off: not 1 only
   /// for the unknowns of a kernel vector of many whose configurations are isolated. There the directions of ξ in a box that
   /// narrower sides of q would empty are too many to be told apart, and they wait.
-  double patience(int j) const { return patience_[static_cast<std::size_t>(j)]; }
+  double patience(int j) const { return patience_[j]; }
 
  private:
   std::vector<double> smear(const certify::CompiledSystem& system, std::span<const Interval> x) const;

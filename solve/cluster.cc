@@ -281,16 +281,14 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
     bytes = *copy;
     owner = copy;
   }
-  Received answer = answer_from(bytes);
+  Received answer = answer_from(bytes, s.prepared);
   const auto given = s.under_way.find(answer.id);
   if (given == s.under_way.end()) {
     if (answer.id >= s.next_id) throw ShardError("the answer to a unit that was never given out");
     return false;
   }
-  for (const Received::Part& part : answer.parts) {
-    check(part, s.prepared);
+  for (const Received::Part& part : answer.parts)
     if (part.shard.number / kNumbersOfUnit != answer.id) throw ShardError("an answer with the numbers of another unit");
-  }
   std::int64_t more = 0;
   for (const Received::Part& part : answer.parts) more += s.of(part.shard, part.found);
   const std::uint64_t most = s.run.limits().memory;

@@ -37,14 +37,13 @@ constexpr std::size_t kGrowth = 2;
 bool may_be_solution(const Problem& problem, const std::vector<double>& x) {
   const UpwardRounding rounding;
   const certify::CompiledSystem& system = problem.compiled;
-  std::vector<double> jacobian(static_cast<std::size_t>(system.entries()));
+  std::vector<double> jacobian(system.entries());
   system.approximate_jacobian(x.data(), jacobian.data());
   for (int row = 0; row < system.equations(); ++row) {
     const Interval value = system.evaluate_at(row, x.data());
     double slope = 0;
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
-      slope +=
-          std::fabs(jacobian[static_cast<std::size_t>(k)]) * system.scales()[static_cast<std::size_t>(system.column(k))];
+      slope += std::fabs(jacobian[k]) * system.scales()[system.column(k)];
     if (value.mig() > kCloseShare * slope) return false;
   }
   return true;
@@ -57,7 +56,7 @@ bool goes_on(const Problem& problem, const LocalSolution& start, double step, st
   const int full = std::min(system.equations(), system.variables());
   if (!exact || exact->rank >= full || breaks_inequality(problem, exact->x, step)) return false;
   const std::vector<double> basis = kernel_basis(problem, *exact, 100 * kTolerance);
-  const std::size_t n = static_cast<std::size_t>(system.variables()), k = basis.size() / n;
+  const std::size_t n = system.variables(), k = basis.size() / n;
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < kDirections; ++trial) {
     std::vector<double> direction(n, 0.0), weights(k);
@@ -103,12 +102,12 @@ bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes,
 // follows there, though it is as good as any other a step away.
 std::vector<int> steady_rows(const certify::CompiledSystem& system, const Box& x) {
   const UpwardRounding rounding;
-  std::vector<Interval> jacobian(static_cast<std::size_t>(system.entries()));
+  std::vector<Interval> jacobian(system.entries());
   system.jacobian(x, jacobian);
   std::vector<int> result;
   for (int row = 0; row < system.equations(); ++row)
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
-      if (jacobian[static_cast<std::size_t>(k)].mig() > 0) {
+      if (jacobian[k].mig() > 0) {
         result.push_back(row);
         break;
       }
@@ -172,7 +171,7 @@ void SelfMotions::prove_cluster(const Problem& problem, const System& system, st
     const auto same = std::find_if(known_.begin(), known_.end(), [&](const Known& other) {
       return certify::same_relations(other.motion, *candidate.motion);
     });
-    const auto index = static_cast<std::size_t>(same - known_.begin());
+    const std::size_t index = same - known_.begin();
     if (same == known_.end()) {
       known_.push_back({std::move(*candidate.motion), candidate.dimension});
       attempts = 0;
@@ -203,7 +202,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
       // Around a surface these places are curves, where each size has twice as many boxes, and the surface is proven in four
       // times as many.
       const bool surface = std::any_of(cluster.begin(), cluster.end(), [&](std::size_t i) {
-        return boxes[i].proof.proven && known_[static_cast<std::size_t>(boxes[i].proof.motion)].dimension > 1;
+        return boxes[i].proof.proven && known_[boxes[i].proof.motion].dimension > 1;
       });
       if (share < (along ? kSetShare : last) || (open > many && (surface || 2 * open > cluster.size())))
         reason = Reason::degenerate_set;
@@ -243,7 +242,7 @@ std::vector<SelfMotionRecord> SelfMotions::records(const certify::Reduction& red
     result.push_back({known.dimension, known.motion.relations});
     for (Polynomial& f : result.back().relations)
       for (Monomial& m : f.monomials)
-        for (Factor& factor : m.factors) factor.variable = reduction.kept[static_cast<std::size_t>(factor.variable)];
+        for (Factor& factor : m.factors) factor.variable = reduction.kept[factor.variable];
   }
   return result;
 }

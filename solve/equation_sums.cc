@@ -126,10 +126,124 @@ class SumSearch {
   std::set<int> variables_;
 };
 
+std::optional<mp_limb_t> modulo_prime(const ExactNumber& x) {
+  Rational q;
+  if (!x.is_rational() || fmpq_set_str(q.get(), x.text().c_str(), 10) != 0) return std::nullopt;
+  const mp_limb_t numerator = fmpz_fdiv_ui(fmpq_numref(q.get()), PrimeMatrix::kPrime),
+                  denominator = fmpz_fdiv_ui(fmpq_denref(q.get()), PrimeMatrix::kPrime);
+  if (denominator == 0) return std::nullopt;
+  return nmod_div(numerator, denominator, PrimeMatrix::field());
+}
+
+// h in the variables that are kept.
+Polynomial reduced(Polynomial h, const certify::Reduction& reduction) {
+  std::vector<int> place(reduction.kept.size() + reduction.definitions.size(), -1);
+  for (std::size_t j = 0; j < reduction.kept.size(); ++j) place[reduction.kept[j]] = static_cast<int>(j);
+  // A value is in kept variables, by their new indices: those of h get them first, apart from the eliminated ones.
+  const int beyond = static_cast<int>(place.size());
+  for (Monomial& m : h.monomials) {
+    for (Factor& x : m.factors) {
+      const int kept = place[x.variable];
+      x.variable = kept >= 0 ? kept : beyond + x.variable;
+    }
+    std::sort(m.factors.begin(), m.factors.end(), [](const Factor& a, const Factor& b) { return a.variable < b.variable; });
+  }
+  for (const auto& definition : reduction.definitions)
+    h = certify::substitute(h, beyond + definition.variable, definition.value);
+  return h;
+}
+
 }  // namespace
 
 std::optional<ImpliedEquation> express_by_equations(const Polynomial& h, const System& system, const Ended& ended) {
   return SumSearch(h, system, ended).find();
+}
+
+int degree(const Powers& p) {
+  int sum = 0;
+  for (const auto& [variable, power] : p) sum += power;
+  return sum;
+}
+
+Powers times(const Powers& p, const Powers& q) {
+  std::map<int, int> powers(p.begin(), p.end());
+  for (const auto& [variable, power] : q) powers[variable] += power;
+  return {powers.begin(), powers.end()};
+}
+
+Powers powers_of(const Monomial& m) {
+  Powers p;
+  for (const Factor& x : m.factors) p.emplace_back(x.variable, x.power);
+  return p;
+}
+
+std::optional<Row> row_of(const Polynomial& f) {
+  Row row;
+  for (const Monomial& m : f.monomials) {
+    const auto c = modulo_prime(m.coefficient);
+    if (!c || m.is_trigonometric()) return std::nullopt;
+    row[powers_of(m)] = *c;
+  }
+  return row;
+}
+
+std::optional<ExactNumber> fraction_of(mp_limb_t x) {
+  Rational q, a, p;
+  fmpz_set_ui(fmpq_numref(a.get()), x);
+  fmpz_set_ui(fmpq_numref(p.get()), PrimeMatrix::kPrime);
+  if (!fmpq_reconstruct_fmpz(q.get(), fmpq_numref(a.get()), fmpq_numref(p.get()))) return std::nullopt;
+  return q.exact();
+}
+
+Multiple::Multiple(int of, const Row& terms, Powers by) : equation(of), product(std::move(by)) {
+  for (const auto& [p, c] : terms) row[times(p, product)] = c;
+}
+
+ImpliedEquation::Part Multiple::part(const ExactNumber& factor) const {
+  ImpliedEquation::Part part{equation, factor, {}};
+  for (const auto& [variable, power] : product) part.product.push_back({variable, power});
+  return part;
+}
+
+void drop_lone(std::vector<Multiple>& multiples, int of_degree, const Row& target) {
+  for (std::size_t before = 0; before != multiples.size();) {
+    before = multiples.size();
+    std::map<Powers, int> uses;
+    for (const Multiple& m : multiples)
+      for (const auto& [p, c] : m.row)
+        if (degree(p) >= of_degree) ++uses[p];
+    for (const auto& [p, c] : target) ++uses[p];
+    std::erase_if(multiples, [&](const Multiple& m) {
+      return std::any_of(m.row.begin(), m.row.end(),
+                         [&](const auto& t) { return degree(t.first) >= of_degree && uses[t.first] == 1; });
+    });
+  }
+}
+
+std::vector<std::size_t> add_implied_equations(const std::vector<Polynomial>& claimed, certify::Reduction& reduction,
+                                               const Ended& ended) {
+  std::vector<std::size_t> unproven;
+  if (!reduction.consistent || reduction.tolerant) return unproven;
+  const UpwardRounding rounding;
+  const std::vector<ImpliedEquation> found = find_implied_equations(reduction.system, ended);
+  for (std::size_t k = 0; k < found.size(); ++k)
+    certify::add_implied(reduction, found[k], "implied equation " + std::to_string(k + 1));
+  for (std::size_t k = 0; k < claimed.size(); ++k) {
+    const Polynomial& claim = claimed[k];
+    const bool is_polynomial =
+        std::none_of(claim.monomials.begin(), claim.monomials.end(), [](const Monomial& m) { return m.is_trigonometric(); });
+    const Polynomial h = is_polynomial ? reduced(claim, reduction) : claim;
+    const auto is_known = [&](const Polynomial& f) { return certify::proportional(f, h).has_value(); };
+    if (h.monomials.empty() || std::any_of(reduction.system.equations.begin(), reduction.system.equations.end(), is_known) ||
+        std::any_of(reduction.system.implied.begin(), reduction.system.implied.end(), is_known))
+      continue;
+    if (const auto of = express_by_equations(h, reduction.system, ended)) {
+      certify::add_implied(reduction, *of, claim.source);
+    } else {
+      unproven.push_back(k);
+    }
+  }
+  return unproven;
 }
 
 }  // namespace corank::solve

@@ -123,8 +123,7 @@ class Estimator {
 
   void process(BoxProcessor& processor, Shard& shard, Waiting& box, double postpone, double weight,
                std::vector<Waiting>& next, Trial& trial) {
-    std::vector<Interval>& x = box.x;
-    const auto outcome = processor.process(x, postpone, box.share);
+    const auto outcome = processor.process(box.x, postpone, box.share);
     for (Proven& sheet : shard.sheets) sheets_.push_back({std::move(sheet), weight});
     trial.sheets += weight * static_cast<double>(shard.sheets.size());
     trial.postponed += weight * static_cast<double>(shard.postponed.size());
@@ -133,14 +132,9 @@ class Estimator {
     shard.postponed.clear();
     shard.found.clear();
     if (outcome != BoxProcessor::Outcome::split) return;
-    const std::size_t j = processor.split_variable();
-    const Interval side = x[j];
-    const double at = *split_point(side);
-    x.resize(problem_.compiled.variables());
-    x[j] = Interval(at, side.hi());
-    next.push_back({x, box.share * (1 - kBisectionPoint), 0});
-    x[j] = Interval(side.lo(), at);
-    next.push_back({std::move(x), box.share * kBisectionPoint, 0});
+    auto [lower, upper] = processor.halves(std::move(box));
+    next.push_back(std::move(upper));
+    next.push_back(std::move(lower));
   }
 
   CostEstimate of_search(const std::vector<Trial>& trials) {

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "corank/solve/control.h"
-#include "corank/solve/prepared.h"
+#include "corank/solve/options.h"
 
 namespace corank::solve {
 

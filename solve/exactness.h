@@ -4,7 +4,7 @@
 
 #include "corank/core/cover.h"
 #include "corank/solve/control.h"
-#include "corank/solve/prepared.h"
+#include "corank/solve/options.h"
 
 namespace corank::solve {
 

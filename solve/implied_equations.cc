@@ -4,9 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "corank/certify/polynomial_algebra.h"
-#include "corank/certify/reduction.h"
-#include "corank/core/rounding.h"
 #include "corank/solve/equation_multiples.h"
 
 namespace corank::solve {
@@ -253,54 +250,10 @@ class Finder {
   std::vector<ImpliedEquation> found_;
 };
 
-// h in the variables that are kept.
-Polynomial reduced(Polynomial h, const certify::Reduction& reduction) {
-  std::vector<int> place(reduction.kept.size() + reduction.definitions.size(), -1);
-  for (std::size_t j = 0; j < reduction.kept.size(); ++j) place[reduction.kept[j]] = static_cast<int>(j);
-  // A value is in kept variables, by their new indices: those of h get them first, apart from the eliminated ones.
-  const int beyond = static_cast<int>(place.size());
-  for (Monomial& m : h.monomials) {
-    for (Factor& x : m.factors) {
-      const int kept = place[x.variable];
-      x.variable = kept >= 0 ? kept : beyond + x.variable;
-    }
-    std::sort(m.factors.begin(), m.factors.end(), [](const Factor& a, const Factor& b) { return a.variable < b.variable; });
-  }
-  for (const auto& definition : reduction.definitions)
-    h = certify::substitute(h, beyond + definition.variable, definition.value);
-  return h;
-}
-
 }  // namespace
 
 std::vector<ImpliedEquation> find_implied_equations(const System& system, const Ended& ended) {
   return Finder(system, ended).run();
-}
-
-std::vector<std::size_t> add_implied_equations(const std::vector<Polynomial>& claimed, certify::Reduction& reduction,
-                                               const Ended& ended) {
-  std::vector<std::size_t> unproven;
-  if (!reduction.consistent || reduction.tolerant) return unproven;
-  const UpwardRounding rounding;
-  const std::vector<ImpliedEquation> found = find_implied_equations(reduction.system, ended);
-  for (std::size_t k = 0; k < found.size(); ++k)
-    certify::add_implied(reduction, found[k], "implied equation " + std::to_string(k + 1));
-  for (std::size_t k = 0; k < claimed.size(); ++k) {
-    const Polynomial& claim = claimed[k];
-    const bool is_polynomial =
-        std::none_of(claim.monomials.begin(), claim.monomials.end(), [](const Monomial& m) { return m.is_trigonometric(); });
-    const Polynomial h = is_polynomial ? reduced(claim, reduction) : claim;
-    const auto is_known = [&](const Polynomial& f) { return certify::proportional(f, h).has_value(); };
-    if (h.monomials.empty() || std::any_of(reduction.system.equations.begin(), reduction.system.equations.end(), is_known) ||
-        std::any_of(reduction.system.implied.begin(), reduction.system.implied.end(), is_known))
-      continue;
-    if (const auto of = express_by_equations(h, reduction.system, ended)) {
-      certify::add_implied(reduction, *of, claim.source);
-    } else {
-      unproven.push_back(k);
-    }
-  }
-  return unproven;
 }
 
 }  // namespace corank::solve

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "corank/solve/degeneracy.h"
-#include "corank/solve/prepared.h"
+#include "corank/solve/options.h"
 #include "corank/solve/shard.h"
 
 namespace corank::solve {

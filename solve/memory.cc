@@ -1,6 +1,11 @@
 #include "corank/solve/memory.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
 
 #include "corank/solve/control.h"
 #include "corank/solve/recorder.h"
@@ -15,6 +20,36 @@ constexpr std::int64_t kSortedBytes = 6 * sizeof(double);  // pointers and keys
 template <class T>
 std::int64_t bytes(std::int64_t count) {
   return static_cast<std::int64_t>(sizeof(T)) * count;
+}
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
+
+// The number in a file; kUnknown for "max", or where there is none.
+std::uint64_t number_in(const fs::path& path) {
+  std::uint64_t value = 0;
+  std::ifstream file(path);
+  return file >> value ? value : kUnknown;
+}
+
+// "MemTotal:  16384 kB"
+std::uint64_t main_memory(const fs::path& meminfo) {
+  std::ifstream file(meminfo);
+  for (std::string word; file >> word;)
+    if (std::uint64_t value = 0; word == "MemTotal:" && file >> value) return value * 1024;
+  return kUnknown;
+}
+
+// The least limit of a group and those that it is in.
+std::uint64_t granted(const fs::path& root, const fs::path& group, const char* name) {
+  std::uint64_t least = number_in(root / name);
+  fs::path folder = root;
+  for (const fs::path& part : group.relative_path()) {
+    folder /= part;
+    least = std::min(least, number_in(folder / name));
+  }
+  return least;
 }
 
 }  // namespace
@@ -32,7 +67,7 @@ MemoryEstimate::MemoryEstimate(const certify::Reduction& reduction, std::uint64_
   // Its region and image; a point of the cover beside the box.
   sheet_ = bytes<certify::Sheet>(1) + bytes<Interval>(2 * n) + bytes<int>(2 * m) + 5 * kBlock + bytes<CoverBox>(1) + own;
   // The tableau, Y (three times) and Y·S.
-  waiting_ = bytes<Interval>(n) + bytes<double>(1) + bytes<NodeId>(1);
+  waiting_ = bytes<Waiting>(1) + bytes<Interval>(n) + kBlock;
   thread_ = bytes<double>(m * n + 3 * m * m) + bytes<Interval>(m * n);
 }
 
@@ -69,6 +104,26 @@ std::uint64_t bytes_of(const Cover& cover, std::uint64_t later_bytes) {
            sizeof(double) * cover.proof->reals.size();
   }
   return sum;
+}
+
+std::uint64_t machine_memory(const fs::path& proc, const fs::path& control_groups) {
+  std::uint64_t least = main_memory(proc / "meminfo");
+  // "0::/user.slice" (version 2), "7:memory:/user.slice" (version 1)
+  std::ifstream file(proc / "self" / "cgroup");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",", group = line.substr(second + 1);
+    if (controllers == ",,") {
+      least = std::min(least, granted(control_groups, group, "memory.max"));
+    } else if (controllers.find(",memory,") != std::string::npos) {
+      least = std::min(least, granted(control_groups / "memory", group, "memory.limit_in_bytes"));
+    }
+  }
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    least = std::min(least, static_cast<std::uint64_t>(limit.rlim_cur));
+  return least == kUnknown ? 0 : least;
 }
 
 }  // namespace corank::solve

@@ -1,6 +1,9 @@
 // What a search keeps until its result is written, in bytes: an estimate that counts what there are many of.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
+
 #include "corank/solve/packed_found.h"
 
 namespace corank::solve {
@@ -29,5 +32,10 @@ class MemoryEstimate {
  private:
   std::int64_t box_, region_, sheet_, thread_, waiting_;
 };
+
+/// What this process may take, in bytes: the machine's main memory, or what the control groups of the process or its resource limits grant where that is
+/// less; 0 where nothing is known. The folders are Linux's; others are for tests.
+std::uint64_t machine_memory(const std::filesystem::path& proc = "/proc",
+                             const std::filesystem::path& control_groups = "/sys/fs/cgroup");
 
 }  // namespace corank::solve

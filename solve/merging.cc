@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/solve/gathering.h"
+#include "corank/solve/assembly.h"
 #include "corank/solve/preconditioner.h"
 
 namespace corank::solve {

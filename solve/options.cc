@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
+#include "corank/solve/implied_equations.h"
+#include "corank/solve/reducer.h"
 #include "corank/solve/sigma.h"
 
 namespace corank::solve {
@@ -73,6 +76,16 @@ Sigma smallest_sigma(const System& system) {
   }
   const double share = system.dimension() == 0 ? 1e-16 : 1e-10;
   return {share * largest.length, share * largest.angle};
+}
+
+Prepared prepare(System system, const Options& options, Control& control) {
+  const InStage stage(control, Stage::reduction);
+  system.validate();
+  options.validate(system);
+  const Ended ended = [&control] { return control.ended(); };
+  certify::Reduction reduction = reduce(system, ended);
+  add_implied_equations(system.claimed, reduction, ended);
+  return {std::move(system), std::move(reduction), options};
 }
 
 }  // namespace corank::solve

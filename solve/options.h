@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/certify/reduction.h"
 #include "corank/core/cover.h"
 #include "corank/core/system.h"
 #include "corank/solve/control.h"
@@ -65,5 +66,15 @@ double uncut_sigma(const System& system);
 
 /// The least σ that a search accepts: below it the rounding of doubles would keep boxes from becoming that narrow.
 Sigma smallest_sigma(const System& system);
+
+/// A question to the solver, made ready once for all that is done about it: searches, exact proofs, decimals.
+struct Prepared {
+  System system;
+  certify::Reduction reduction;  ///< of the system; valid, if not the whole of it, where the control had ended before
+  Options options;
+};
+
+/// Throws std::invalid_argument where the system is not valid (System::validate), OptionError where the options are not.
+Prepared prepare(System system, const Options& options, Control& control);
 
 }  // namespace corank::solve

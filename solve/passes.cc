@@ -55,8 +55,7 @@ Work first_pass(const Prepared& prepared) {
   for (const Box& given : prepared.options.roots) {
     Box root = reduction.system.domain();
     bool empty = false;
-    for (std::size_t j = 0; j < root.size(); ++j)
-      empty = empty || !root[j].intersect(given.at(static_cast<std::size_t>(reduction.kept[j])));
+    for (std::size_t j = 0; j < root.size(); ++j) empty = empty || !root[j].intersect(given.at(reduction.kept[j]));
     if (!empty) roots.push_back({std::move(root), 0, {.place = roots.size()}});
   }
   for (Waiting& root : roots) root.share = 1.0 / static_cast<double>(roots.size());

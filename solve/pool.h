@@ -2,13 +2,23 @@
 // threads only share the work, and what all shards hold together is the same for any number of them.
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <atomic>
+#include <deque>
 #include <iterator>
 #include <limits>
-#include <memory>
+#include <optional>
 #include <vector>
 
-#include "corank/solve/prepared.h"
+#include "corank/core/interval.h"
+#include "corank/core/threads.h"
+#include "corank/solve/box_processor.h"
+#include "corank/solve/options.h"
 #include "corank/solve/problem.h"
+#include "corank/solve/recorder.h"
 #include "corank/solve/shard.h"
 #include "corank/solve/tally.h"
 
@@ -21,21 +31,23 @@ class Pool {
   Pool(const Prepared& prepared, Tally& tally, ShardNumber last_shard = 0, const Problem* like = nullptr);
   /// One that goes on where these shards, which are its own now, were made.
   Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier);
-  ~Pool();
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
-  const Problem& problem() const;
-  int threads() const;
+  const Problem& problem() const { return problem_; }
+  int threads() const { return arena_.threads(); }
   /// To be called before sheets are cut.
-  void set_sigma(const Sigma& sigma);
+  void set_sigma(const Sigma& sigma) { problem_.set_sigma(sigma); }
   /// f() where its parallel parts have the threads that the options allow.
-  void execute(const std::function<void()>& f);
+  template <class F>
+  void execute(const F& f) {
+    arena_.execute(f);
+  }
 
   /// Depth first, so that memory grows with the depth and the results. Once a limit ends the search, or the tally pauses,
   /// what is not processed goes to Shard::left.
   void search(const Work& work);
-  bool ended() const;
+  bool ended() const { return tally_.ended(); }
   /// Keeps a postponed box that was proven to hold a self-motion.
   void add_proven(const Postponed& box);
   /// A postponed box that is not divided any further.
@@ -55,8 +67,31 @@ class Pool {
   std::vector<Shard> take_shards();
 
  private:
-  struct Threads;
-  std::unique_ptr<Threads> threads_;
+  struct Worker {  // one per thread
+    Worker(const Problem& problem, ShardNumber number, bool recorded) : shard(number, recorded), processor(problem, shard) {}
+    Shard shard;
+    BoxProcessor processor;
+    Tally::Counted counted{};
+    std::optional<Shard::Mark> finished{};  // before the first sheet that was not cut to its end
+  };
+
+  int variables() const { return problem_.compiled.variables(); }
+  void count(Worker& worker) { tally_.count(worker.shard, worker.counted); }
+  // Boxes that wait, the newest last.
+  using WorkList = std::deque<Waiting>;
+  void spawn(WorkList list, const Work& of);
+  void work(WorkList list, const Work& of);
+
+  const Prepared& prepared_;
+  Tally& tally_;
+  std::vector<Shard> earlier_;
+  bool cutting_ = false, whole_ = false;
+  Problem problem_;
+  std::atomic<ShardNumber> numbers_;
+  std::atomic<int> busy_{0};
+  tbb::enumerable_thread_specific<Worker> workers_;
+  ThreadArena arena_;
+  tbb::task_group group_;
 };
 
 /// Takes one of their lists out of the shards: &Shard::postponed, or &Shard::left, newest first, as Pool::search takes them.

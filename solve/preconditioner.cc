@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "corank/core/lanes.h"
-#include "corank/solve/chart.h"
 #include "corank/solve/problem.h"
 #include "corank/solve/recorder.h"
 
 namespace corank::solve {
 namespace {
+
 // Pivots below this share of a row's largest entry count as zero, each times its variable's scale.
 constexpr double kRankTolerance = 1e-9;
 constexpr int kGaussNewtonSteps = 8;
@@ -56,6 +56,8 @@ CORANK_WIDE void exchange(const Pivoting& e, int row, int column) {
     if (!e.done[i]) e.best[i] = largest(t, e.allowed, e.stride) * e.row_scale[i];
   }
 }
+
+constexpr int kExchanges = 16;
 
 }  // namespace
 
@@ -177,6 +179,28 @@ std::vector<int> PreconditionerFactory::chart_of_last(const std::vector<double>&
   }
   improve(chart, gain);
   return other_variables(chart.free, n_);
+}
+
+void improve(Chart& chart, double gain) {
+  const std::size_t k = chart.free.size();
+  std::vector<double>& t = chart.tangent;
+  for (int step = 0; step < kExchanges; ++step) {
+    double best = gain;
+    std::size_t at = t.size();
+    for (std::size_t i = 0; i < t.size(); ++i)
+      if (std::fabs(t[i]) > best) best = std::fabs(t[i]), at = i;
+    if (at == t.size()) return;
+    const std::size_t row = at / k, f = at % k;
+    chart.free[f] = static_cast<int>(row);
+    // Column operations that make `row` a unit vector.
+    const double pivot = t[at];
+    for (std::size_t i = 0; i < t.size(); i += k) t[i + f] /= pivot;
+    for (std::size_t g = 0; g < k; ++g) {
+      const double factor = t[row * k + g];
+      if (g == f || factor == 0) continue;
+      for (std::size_t i = 0; i < t.size(); i += k) t[i + g] -= factor * t[i + f];
+    }
+  }
 }
 
 }  // namespace corank::solve

@@ -2,7 +2,7 @@
 //
 // - Variables that an equation ties to one other, or to a number, are replaced; so are those that only one equation has.
 // - Products that several equations share are eliminated by sums of equations (solve/product_elimination.h).
-// - A multiple of one equation is added to another where that leaves fewer terms (solve/shortening.h): shorter equations are
+// - A multiple of one equation is added to another where that leaves fewer terms: shorter equations are
 //   tighter over boxes. The rows of a kernel condition that speak of the same velocity are such.
 // Numbers of more than 2,000 bits are left alone: exact arithmetic with them takes minutes, and intervals of doubles gain
 // nothing by it.

@@ -10,7 +10,7 @@
 
 #include "corank/core/exact_number.h"
 #include "corank/solve/byte_archive.h"
-#include "corank/solve/prepared.h"
+#include "corank/solve/options.h"
 #include "corank/solve/shard.h"
 
 // Each type beside the namespace that it lives in, where the archive looks for it.

@@ -163,9 +163,7 @@ Echelon relations_of(const Problem& problem, const std::vector<LocalSolution>& s
   const auto n = static_cast<Eigen::Index>(problem.compiled.variables());
   Matrix a(static_cast<Eigen::Index>(samples.size()), n + 1);
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    for (Eigen::Index j = 0; j < n; ++j)
-      a(static_cast<Eigen::Index>(i), j) =
-          samples[i].x[static_cast<std::size_t>(j)] / problem.compiled.scales()[static_cast<std::size_t>(j)];
+    for (Eigen::Index j = 0; j < n; ++j) a(static_cast<Eigen::Index>(i), j) = samples[i].x[j] / problem.compiled.scales()[j];
     a(static_cast<Eigen::Index>(i), n) = 1;
   }
   const SingularValueDecomposition svd = decompose(a);
@@ -192,12 +190,12 @@ Echelon relations_of(const Problem& problem, const std::vector<LocalSolution>& s
 std::optional<Polynomial> rational_relation(const Problem& problem, const Eigen::RowVectorXd& row, Eigen::Index pivot,
                                             Longest longest) {
   const std::vector<double>& scales = problem.compiled.scales();
-  const double unit = scales[static_cast<std::size_t>(pivot)];
+  const double unit = scales[pivot];
   const Eigen::Index n = row.size() - 1;
   Polynomial f{{}, "self-motion"};
   for (Eigen::Index j = 0; j < n; ++j) {
     if (std::fabs(row(j)) < kRelationTolerance) continue;
-    const auto a = rational_near(row(j) * unit / scales[static_cast<std::size_t>(j)], longest);
+    const auto a = rational_near(row(j) * unit / scales[j], longest);
     if (!a) return std::nullopt;
     if (!a->is_zero()) f.monomials.emplace_back(*a, std::vector<Factor>{{static_cast<int>(j), 1}});
   }
@@ -214,17 +212,14 @@ std::vector<Polynomial> ratios(const Problem& problem, const Echelon& e, const s
                                Longest longest) {
   std::vector<Polynomial> result;
   const Eigen::Index n = e.rows.cols() - 1;
-  const auto value = [&](Eigen::Index row) {
-    return -e.rows(row, n) * problem.compiled.scales()[static_cast<std::size_t>(e.pivots[static_cast<std::size_t>(row)])];
-  };
+  const auto value = [&](Eigen::Index row) { return -e.rows(row, n) * problem.compiled.scales()[e.pivots[row]]; };
   std::vector<Eigen::Index> bases;
   for (const Eigen::Index row : constants) {
     bool tied = false;
     for (const Eigen::Index base : bases) {
       const auto ratio = rational_near(value(row) / value(base), longest);
       if (!ratio || ratio->is_zero()) continue;
-      const int p = static_cast<int>(e.pivots[static_cast<std::size_t>(row)]),
-                q = static_cast<int>(e.pivots[static_cast<std::size_t>(base)]);
+      const int p = static_cast<int>(e.pivots[row]), q = static_cast<int>(e.pivots[base]);
       Polynomial f{{}, "self-motion"};
       f.monomials.emplace_back(1, std::vector<Factor>{{p, 1}});
       f.monomials.emplace_back(-*ratio, std::vector<Factor>{{q, 1}});
@@ -241,7 +236,7 @@ std::vector<Polynomial> rational_relations(const Problem& problem, const Echelon
   std::vector<Polynomial> relations;
   std::vector<Eigen::Index> constants;
   for (Eigen::Index row = 0; row < e.rows.rows(); ++row) {
-    const Eigen::Index pivot = e.pivots[static_cast<std::size_t>(row)];
+    const Eigen::Index pivot = e.pivots[row];
     if (auto f = rational_relation(problem, e.rows.row(row), pivot, longest)) {
       relations.push_back(std::move(*f));
       continue;
@@ -285,9 +280,8 @@ bool holds_at(const certify::SelfMotion& motion, const Problem& problem, const s
     double sum = 0, size = 0;
     for (const Monomial& m : f.monomials) {
       const double c = m.enclosure.mid();
-      const double scale =
-          m.factors.empty() ? 1 : problem.compiled.scales()[static_cast<std::size_t>(m.factors[0].variable)];
-      sum += c * (m.factors.empty() ? 1 : x[static_cast<std::size_t>(m.factors[0].variable)]);
+      const double scale = m.factors.empty() ? 1 : problem.compiled.scales()[m.factors[0].variable];
+      sum += c * (m.factors.empty() ? 1 : x[m.factors[0].variable]);
       size = std::max(size, std::fabs(c) * scale);
     }
     if (std::fabs(sum) > 1e-5 * size) return false;

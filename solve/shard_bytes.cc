@@ -1,8 +1,10 @@
 #include "corank/solve/shard_bytes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
-#include <streambuf>
+#include <sstream>
+#include <utility>
 
 #include "corank/solve/packed_found.h"
 #include "corank/solve/search_archive.h"
@@ -70,22 +72,6 @@ void write_part(ByteOutput& archive, const SearchView::Part& part) {
   }
 }
 
-// What is written to it is one string.
-class StringBuffer : public std::streambuf {
- public:
-  std::string bytes;
-
- private:
-  int_type overflow(int_type c) override {
-    if (c != traits_type::eof()) bytes.push_back(static_cast<char>(c));
-    return traits_type::not_eof(c);
-  }
-  std::streamsize xsputn(const char* some, std::streamsize count) override {
-    bytes.append(some, count);
-    return count;
-  }
-};
-
 std::string first_line(std::string_view kind) {
   return "corank " + std::string(kind) + ", version " + engine_version() + "\n";
 }
@@ -93,13 +79,13 @@ std::string first_line(std::string_view kind) {
 // `expected`: of the bytes, nearly. Memory that a growing string leaves behind costs more than what is written to it.
 template <class Value>
 std::string bytes_of_value(std::string_view kind, const Value& value, std::size_t expected = 0) {
-  StringBuffer buffer;
-  buffer.bytes.reserve(expected);
-  std::ostream stream(&buffer);
+  std::string bytes;
+  bytes.reserve(expected);
+  std::ostringstream stream(std::move(bytes), std::ios::binary);
   stream << first_line(kind);
   ByteOutput archive(stream);
   archive(value);
-  return std::move(buffer.bytes);
+  return std::move(stream).str();
 }
 
 template <class Read>
@@ -111,8 +97,8 @@ void read_value(std::string_view kind, std::string_view bytes, Read read) {
   const std::string_view version = bytes.substr(begin.size(), end - begin.size());
   if (version != engine_version()) {
     std::string named(version);
-    std::replace_if(
-        named.begin(), named.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    std::ranges::replace_if(
+        named, [](char c) { return c < ' ' || c > '~'; }, '?');
     throw ShardError("this " + std::string(kind) + " was made by corank " + named + ", and this is corank " +
                      engine_version());
   }
@@ -130,7 +116,8 @@ void read_value(std::string_view kind, std::string_view bytes, Read read) {
 }
 
 template <class Value>
-Value value_from(std::string_view kind, std::string_view bytes, Value value = {}) {
+Value value_from(std::string_view kind, std::string_view bytes) {
+  Value value;
   read_value(kind, bytes, [&](ByteInput& archive) { archive(value); });
   return value;
 }
@@ -149,8 +136,64 @@ std::size_t expected_bytes(const Answer& answer) {
   return bytes;
 }
 
-constexpr std::string_view kPrepared = "question", kWork = "work", kShard = "shard", kUnit = "unit", kAnswer = "answer",
-                           kState = "state";
+constexpr std::string_view kPrepared = "question", kUnit = "unit", kAnswer = "answer", kState = "state";
+
+void expect(bool fits) {
+  if (!fits) throw ShardError("a part of a search cannot be read: it does not fit the system");
+}
+
+struct Sizes {
+  explicit Sizes(const Prepared& prepared)
+      : variables(prepared.reduction.kept.size()),
+        sides(variables + prepared.reduction.definitions.size()),
+        equations(prepared.reduction.system.equations.size()),
+        recorded(prepared.options.proof) {}
+  std::size_t variables, sides, equations;
+  bool recorded;
+};
+
+void check_indices(const std::vector<int>& indices, std::size_t below) {
+  for (const int i : indices) expect(i >= 0 && std::cmp_less(i, below));
+}
+
+void check_sheet(const certify::Sheet& sheet, const Sizes& sizes) {
+  expect(sheet.region.size() == sizes.variables && sheet.image.size() == sizes.variables &&
+         sheet.dependent.size() <= sizes.variables);
+  check_indices(sheet.dependent, sizes.variables);
+  check_indices(sheet.equations, sizes.equations);
+}
+
+void check_kind(const CoverBox& box, const Sizes& sizes) {
+  expect(static_cast<int>(box.verdict) < kVerdicts && static_cast<int>(box.reason) < kReasons);
+  check_indices(box.free, sizes.variables);
+}
+
+void check_found(const Found& found, const Sizes& sizes) {
+  expect(found.box.box.size() == sizes.sides && (!found.region || found.region->size() == sizes.sides));
+  check_kind(found.box, sizes);
+  if (found.sheet) check_sheet(*found.sheet, sizes);
+}
+
+void check_proven(const Proven& proven, const Sizes& sizes) {
+  expect(proven.x.size() == sizes.variables);
+  check_sheet(proven.sheet, sizes);
+}
+
+void check_but_found(const Shard& shard, std::size_t found, const Sizes& sizes) {
+  for (const Waiting& box : shard.left) expect(box.x.size() == sizes.variables);
+  for (const Proven& proven : shard.sheets) check_proven(proven, sizes);
+  for (const Postponed& postponed : shard.postponed) {
+    expect(postponed.box.x.size() == sizes.variables);
+    expect(postponed.near.x.size() == sizes.variables);
+    if (postponed.proof.proven) check_sheet(postponed.proof, sizes);
+  }
+  expect(shard.script.has_value() == sizes.recorded || found + shard.sheets.size() == 0);
+}
+
+void check_work(const Work& work, const Sizes& sizes) {
+  for (const Waiting& box : work.boxes) expect(box.x.size() == sizes.variables);
+  expect(work.postpone >= 0 && std::isfinite(work.postpone));
+}
 
 }  // namespace
 
@@ -162,16 +205,13 @@ const std::string& engine_version() {
 }
 
 std::string to_bytes(const Prepared& prepared) { return bytes_of_value(kPrepared, prepared); }
-std::string to_bytes(const Work& work) { return bytes_of_value(kWork, work); }
-std::string to_bytes(const Shard& shard) { return bytes_of_value(kShard, shard); }
 std::string to_bytes(const Unit& unit) { return bytes_of_value(kUnit, unit); }
 std::string to_bytes(const Answer& answer) { return bytes_of_value(kAnswer, answer, expected_bytes(answer)); }
 
 std::string to_bytes(const SearchView& state) {
-  StringBuffer buffer;
-  std::ostream stream(&buffer);
+  std::ostringstream stream(std::ios::binary);
   write(stream, state);
-  return std::move(buffer.bytes);
+  return std::move(stream).str();
 }
 
 void write(std::ostream& out, const SearchView& state) {
@@ -197,10 +237,25 @@ Prepared prepared_from(std::string_view bytes) {
   return prepared;
 }
 
-Work work_from(std::string_view bytes) { return value_from<Work>(kWork, bytes); }
-Shard shard_from(std::string_view bytes) { return value_from(kShard, bytes, Shard(0, false)); }
-Unit unit_from(std::string_view bytes) { return value_from<Unit>(kUnit, bytes); }
-Received answer_from(std::string_view bytes) { return value_from<Received>(kAnswer, bytes); }
+Unit unit_from(std::string_view bytes, const Prepared& prepared) {
+  Unit unit = value_from<Unit>(kUnit, bytes);
+  const Sizes sizes(prepared);
+  check_work(unit.work, sizes);
+  for (const Proven& proven : unit.sheets) check_proven(proven, sizes);
+  return unit;
+}
+
+Received answer_from(std::string_view bytes, const Prepared& prepared) {
+  Received answer = value_from<Received>(kAnswer, bytes);
+  const Sizes sizes(prepared);
+  for (const auto& [shard, found] : answer.parts) {
+    check_but_found(shard, found.size(), sizes);
+    expect(found.size() == 0 || found.sides() == sizes.sides);
+    for (const CoverBox& kind : found.kinds()) check_kind(kind, sizes);
+    for (const auto& [box, sheet] : found.sheets()) check_sheet(sheet, sizes);
+  }
+  return answer;
+}
 
 SearchState state_from(std::string_view bytes, const Prepared& prepared) {
   SearchState state;
@@ -211,7 +266,13 @@ SearchState state_from(std::string_view bytes, const Prepared& prepared) {
     cereal::size_type shards = 0;
     archive(cereal::make_size_tag(shards));
     for (cereal::size_type i = 0; i < shards; ++i) archive(state.shards.emplace_back(0, false));
-    check(state, prepared);
+    const Sizes sizes(prepared);
+    check_work(state.first, sizes);
+    check_work(state.pass, sizes);
+    for (const Shard& shard : state.shards) {
+      check_but_found(shard, shard.found.size(), sizes);
+      for (const Found& found : shard.found) check_found(found, sizes);
+    }
   });
   return state;
 }

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "corank/solve/journal.h"
+#include "corank/solve/options.h"
 #include "corank/solve/packed_found.h"
-#include "corank/solve/prepared.h"
 #include "corank/solve/shard.h"
 
 namespace corank::solve {
@@ -35,28 +35,17 @@ struct Received {
 };
 
 std::string to_bytes(const Prepared& prepared);
-std::string to_bytes(const Work& work);
-std::string to_bytes(const Shard& shard);
 std::string to_bytes(const Unit& unit);
 std::string to_bytes(const Answer& answer);
 std::string to_bytes(const SearchView& state);
 void write(std::ostream& out, const SearchView& state);
-/// The same value again, to the last bit. Throw ShardError. What is read is as trustworthy as who has written it: it says
-/// what is proven.
+/// The same value again, to the last bit. Throw ShardError, also where a box of what is read has another number of sides than
+/// the question has variables, or an index names nothing. What is read is as trustworthy as who has written it: it says what
+/// is proven.
 Prepared prepared_from(std::string_view bytes);
-Work work_from(std::string_view bytes);
-Shard shard_from(std::string_view bytes);
-Unit unit_from(std::string_view bytes);
+Unit unit_from(std::string_view bytes, const Prepared& prepared);
 /// The bytes stay where they are, as long as the answer is there.
-Received answer_from(std::string_view bytes);
+Received answer_from(std::string_view bytes, const Prepared& prepared);
 SearchState state_from(std::string_view bytes, const Prepared& prepared);
-
-/// Does what was read fit the system that it is said to be of? Throw ShardError where a box has another number of sides, or
-/// an index names nothing.
-void check(const Work& work, const Prepared& prepared);
-void check(const Shard& shard, const Prepared& prepared);
-void check(const Received::Part& part, const Prepared& prepared);
-void check(const Unit& unit, const Prepared& prepared);
-void check(const SearchState& state, const Prepared& prepared);
 
 }  // namespace corank::solve

@@ -5,7 +5,6 @@
 #include "corank/core/system.h"
 #include "corank/solve/control.h"
 #include "corank/solve/options.h"
-#include "corank/solve/prepared.h"
 
 namespace corank::solve {
 

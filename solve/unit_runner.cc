@@ -50,9 +50,8 @@ UnitRunner::UnitRunner(std::string_view prepared) : question_(std::make_unique<Q
 UnitRunner::~UnitRunner() = default;
 
 std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
-  Unit unit = unit_from(bytes);
   Prepared& prepared = question_->prepared;
-  check(unit, prepared);
+  Unit unit = unit_from(bytes, prepared);
   prepared.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
   Control control({.time = unit.cut ? 0 : budget.seconds, .boxes = unit.cut ? 0 : unit.boxes, .clock = budget.clock});
   Tally tally(prepared, control, unit.cut ? 0 : budget.boxes);

@@ -11,7 +11,6 @@
 #include <random>
 #include <regex>
 
-#include "corank/analyze/claims.h"
 #include "corank/result/verification.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model_file.h"

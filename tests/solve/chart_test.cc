@@ -1,5 +1,5 @@
 // The choice of free variables, and the pieces that proven sheets are cut into.
-#include "corank/solve/chart.h"
+#include "corank/solve/preconditioner.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <vector>
 
-#include "corank/solve/machine_memory.h"
+#include "corank/solve/memory.h"
 #include "corank/tests/solve/cover_questions.h"
 
 namespace corank::solve {

@@ -6,7 +6,7 @@
 
 #include "corank/solve/box_labels.h"
 #include "corank/solve/control.h"
-#include "corank/solve/prepared.h"
+#include "corank/solve/options.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::solve {

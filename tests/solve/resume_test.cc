@@ -190,7 +190,7 @@ TEST(Resuming, WhatIsDamagedIsRefused) {
   for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 300)
     EXPECT_THROW(state_from(bytes.substr(0, length), prepared), ShardError) << length;
   EXPECT_THROW(state_from(bytes + "x", prepared), ShardError);
-  EXPECT_THROW(work_from(bytes), ShardError);
+  EXPECT_THROW(unit_from(bytes, prepared), ShardError);
   const Prepared other = prepared_with(lemniscate(), options);
   EXPECT_THROW(state_from(bytes, other), ShardError) << "of another system";
   std::string old = bytes;

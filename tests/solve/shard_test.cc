@@ -13,6 +13,16 @@
 namespace corank::solve {
 namespace {
 
+// The shard as an answer brings it.
+Shard through_bytes(Shard shard, const Prepared& prepared) {
+  Answer answer;
+  answer.shards.push_back(std::move(shard));
+  const std::string bytes = to_bytes(answer);
+  Received received = answer_from(bytes, prepared);
+  received.parts[0].found.unpack(received.parts[0].shard.found);
+  return std::move(received.parts[0].shard);
+}
+
 // Searches a few boxes of the work at a time, in any order, each time with new threads and a limit that leaves some.
 class Pieces {
  public:
@@ -23,7 +33,7 @@ class Pieces {
 
   Cover cover() {
     SelfMotions motions;
-    const Work first = work_from(to_bytes(first_pass(prepared_)));
+    const Work first = unit_from(to_bytes(Unit{.work = first_pass(prepared_)}), prepared_).work;
     for (Work pass = first; !pass.boxes.empty();
          pass = next_pass(prepared_, pass, take(pointers(), &Shard::postponed), judge_, motions))
       search(pass);
@@ -68,16 +78,16 @@ class Pieces {
       Pool pool(prepared_, tally, number_);
       pool.set_sigma(sigma);
       pool.cut(shards);
-      for (Shard& shard : pool.take_shards()) cut.push_back(shard_from(to_bytes(shard)));
+      for (Shard& shard : pool.take_shards()) cut.push_back(through_bytes(std::move(shard), prepared_));
       number_ += 10;
     }
     for (Shard& shard : cut) shards_.push_back(std::move(shard));
   }
 
   void keep(Pool& pool) {
-    for (const Shard& shard : pool.take_shards()) {
-      shards_.push_back(shard_from(to_bytes(shard)));
+    for (Shard& shard : pool.take_shards()) {
       number_ = std::max(number_, shard.number);
+      shards_.push_back(through_bytes(std::move(shard), prepared_));
     }
     ++parts_;
   }
@@ -156,23 +166,25 @@ TEST(Shards, AsBytesAreTheSameValueAgain) {
   pool.set_sigma({0.3, 0.3});
   pool.search(first_pass(prepared));
   pool.cut(pool.shards());
-  for (const Shard& shard : pool.take_shards()) {
-    const std::string bytes = to_bytes(shard);
-    EXPECT_EQ(to_bytes(shard_from(bytes)), bytes);
-    EXPECT_EQ(shard_from(bytes).found.size(), shard.found.size());
+  for (Shard& shard : pool.take_shards()) {
+    const std::size_t found = shard.found.size();
+    Answer answer;
+    answer.shards.push_back(std::move(shard));
+    const std::string bytes = to_bytes(answer);
+    answer.shards[0] = through_bytes(std::move(answer.shards[0]), prepared);
+    EXPECT_EQ(to_bytes(answer), bytes);
+    EXPECT_EQ(answer.shards[0].found.size(), found);
   }
 }
 
 TEST(Shards, ThatAreDamagedAreRefused) {
-  Work work = first_pass([] {
-    Control control;
-    return prepare(torus().system(), {}, control);
-  }());
-  const std::string bytes = to_bytes(work);
-  EXPECT_THROW(shard_from(bytes), ShardError) << "a work is no shard";
+  Control control;
+  const Prepared prepared = prepare(torus().system(), {}, control);
+  const std::string bytes = to_bytes(Unit{.work = first_pass(prepared)});
+  EXPECT_THROW(answer_from(bytes, prepared), ShardError) << "a unit is no answer";
   for (std::size_t length = 0; length < bytes.size(); length += 7)
-    EXPECT_THROW(work_from(bytes.substr(0, length)), ShardError) << length;
-  EXPECT_THROW(work_from("no work at all, but a sentence"), ShardError);
+    EXPECT_THROW(unit_from(bytes.substr(0, length), prepared), ShardError) << length;
+  EXPECT_THROW(unit_from("no unit at all, but a sentence", prepared), ShardError);
 }
 
 }  // namespace
