@@ -1,13 +1,12 @@
-#include "corank/analyze/aspects.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "corank/analyze/aspects.h"
 #include "corank/analyze/clearance.h"
+#include "corank/analyze/json.h"
 #include "corank/certify/angle.h"
 #include "corank/core/check.h"
 #include "corank/result/pieces_file.h"
@@ -80,10 +79,7 @@ std::string bounds(const Pieces& p) {
 
 result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
   CORANK_CHECK(a.cover != nullptr);
-  result::PiecesFile file;
-  file.model = question.model.name();
-  file.model_text = question.model.source_text();
-  file.constants = question.constants;
+  auto file = file_about<result::PiecesFile>(question);
   file.space = *a.cover;
   file.lists[0].factors = file.lists[1].factors = a.forward_factors;
   file.lists[2].factors = a.inverse_factors;
@@ -138,8 +134,6 @@ std::string to_text(const study::Question& question, const Aspects& a) {
 }
 
 std::string to_json(const study::Question& question, const Aspects& a, bool complete) {
-  using Json = nlohmann::ordered_json;
-  const auto or_null = [](const std::optional<int>& x) { return x ? Json(*x) : Json(); };
   const auto bounds = [&](const Pieces& p) { return Json{{"at_least", p.at_least}, {"at_most", or_null(p.at_most)}}; };
   const auto number = [](const Pieces& p) { return p.exact() ? Json(p.at_least) : Json(); };
   Json json;
@@ -152,16 +146,15 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   json["limits"] = a.limits;
   json["representatives"] = Json::array();
   for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {
-    Json entry = {{"values", Json::object()}, {"signs", a.aspects.signs[k]}};
+    const Box& at = a.aspects.representatives[k];
+    Json entry = {{"values", ends_of(values(a.system, at))}, {"signs", a.aspects.signs[k]}};
     const auto sign = [&](std::size_t d) {
       return a.determinant_signs[k][d] != 0 ? Json(a.determinant_signs[k][d]) : Json();
     };
     entry["det_L_y"] = sign(0);
     entry["det_L_z"] = sign(1);
-    for (const CoordinateValue& v : values(a.system, a.aspects.representatives[k]))
-      entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
     if (a.images && k < a.images->areas.size()) {
-      entry["area"] = {{"lo", a.images->areas[k].lo()}, {"hi", a.images->areas[k].hi()}};
+      entry["area"] = ends_of(a.images->areas[k]);
       entry["shares_outputs_with"] = others(a, k, true);
       entry["may_share_outputs_with"] = others(a, k, std::nullopt);
     }
@@ -171,12 +164,10 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   if (a.cusps) {
     if (a.cusps->looked_for[0] || a.cusps->looked_for[1]) json["cusps"] = Json::array();
     for (const AspectCusp& c : a.cusps->list) {
-      Json entry = {{"locus", c.forward ? "forward" : "inverse"}, {"values", Json::object()}};
-      for (const CoordinateValue& v : values(a.system, c.at))
-        entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
-      entry["around"] = or_null(c.around);
-      entry["between"] = or_null(c.between);
-      json["cusps"].push_back(entry);
+      json["cusps"].push_back({{"locus", c.forward ? "forward" : "inverse"},
+                               {"values", ends_of(values(a.system, c.at))},
+                               {"around", or_null(c.around)},
+                               {"between", or_null(c.between)}});
     }
     json["cusps_of"] = Json::array();
     for (std::size_t k = 0; k < 2; ++k)

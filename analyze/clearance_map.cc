@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <nlohmann/json.hpp>
 
+#include "corank/analyze/json.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // The k-th of n equal parts; neighbours share their end.
 Interval part(const Interval& side, int k, int n) {
@@ -93,14 +91,13 @@ std::string to_csv(const ClearanceMap& map) {
 }
 
 std::string to_json(const ClearanceMap& map) {
-  const auto bound = [](std::optional<double> x) { return x ? Json(*x) : Json(nullptr); };
   const auto row = [&](const MapCell& c) {
     Json json = {{map.names[0], c.middle[0]}, {map.names[1], c.middle[1]}, {"robot", word(c.robot)}};
     const bool nowhere = c.robot == MapCell::Robot::nowhere;
-    json["lo"] = nowhere ? Json(nullptr) : Json(c.lower);
-    json["hi"] = bound(c.upper);
-    json["cell_lo"] = nowhere ? Json(nullptr) : Json(c.cell_lower);
-    json["cell_hi"] = bound(c.cell_upper);
+    json["lo"] = nowhere ? Json() : Json(c.lower);
+    json["hi"] = or_null(c.upper);
+    json["cell_lo"] = nowhere ? Json() : Json(c.cell_lower);
+    json["cell_hi"] = or_null(c.cell_upper);
     return json;
   };
   Json json = {{"model", map.ball.question.model.name()}, {"set", map.ball.set_name()}, {"in", map.ball.names()}};

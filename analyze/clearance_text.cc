@@ -4,17 +4,15 @@
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "corank/analyze/best_center.h"
 #include "corank/analyze/clearance.h"
+#include "corank/analyze/json.h"
 
 namespace corank::analyze {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 }  // namespace
 
@@ -74,15 +72,11 @@ std::string to_json(const Clearance& c) {
   Json json = {{"model", c.ball.question.model.name()}, {"set", c.ball.set_name()}, {"at", Json::object()}};
   for (const NamedValue& v : c.ball.center) json["at"][v.name] = v.value.text();
   json["in"] = c.ball.names();
-  json["radius"] = {{"lo", finite(c.lower())}, {"hi", n.upper ? Json(*n.upper) : Json(nullptr)}};
-  json["nearest"] = nullptr;
-  if (n.upper) {
-    json["nearest"] = Json::object();
-    for (const CoordinateValue& v : c.values) json["nearest"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
-  }
+  json["radius"] = {{"lo", finite(c.lower())}, {"hi", or_null(n.upper)}};
+  json["nearest"] = n.upper ? ends_of(c.values) : Json();
   json["empty"] = n.empty;
   json["room"] = finite(c.ball.room);
-  json["end"] = c.ball.end.empty() ? Json(nullptr) : Json(c.ball.end);
+  json["end"] = or_null(c.ball.end);
   json["ball"] = finite(c.free_radius());
   json["seemingly"] = nullptr;
   if (!c.seemingly.empty()) {
@@ -92,14 +86,12 @@ std::string to_json(const Clearance& c) {
   constexpr std::array kCenters{"assembled", "not assembled", "unknown"};
   json["center"] = kCenters.at(static_cast<std::size_t>(c.center));
   json["complete"] = n.complete;
-  json["stopped"] = c.stopped.empty() ? Json(nullptr) : Json(c.stopped);
+  json["stopped"] = or_null(c.stopped);
   json["precision"] = c.precision;
   json["processed"] = n.statistics.processed;
   json["seconds"] = c.seconds;
   return json.dump(2);
 }
-
-using Json = nlohmann::ordered_json;
 
 std::string to_table(const Best& b) {
   std::vector<std::string> region;
@@ -133,15 +125,14 @@ std::string to_json(const Best& b) {
                {"centre", nullptr},
                {"nearest", nullptr}};
   for (std::size_t k = 0; k < b.names.size(); ++k) json["region"][b.names[k]] = {b.region[k].lo(), b.region[k].hi()};
-  json["radius"] = {{"lo", b.lower}, {"hi", b.upper ? Json(*b.upper) : Json(nullptr)}};
+  json["radius"] = {{"lo", b.lower}, {"hi", or_null(b.upper)}};
   if (!b.center.empty()) json["centre"] = Json::object();
   for (std::size_t k = 0; k < b.center.size(); ++k) json["centre"][b.names[k]] = b.center[k];
-  if (!b.nearest.empty()) json["nearest"] = Json::object();
-  for (const CoordinateValue& v : b.nearest) json["nearest"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+  if (!b.nearest.empty()) json["nearest"] = ends_of(b.nearest);
   json["empty"] = b.empty;
   json["unassembled"] = b.unassembled;
   json["complete"] = b.complete || b.empty;
-  json["stopped"] = b.stopped.empty() ? Json(nullptr) : Json(b.stopped);
+  json["stopped"] = or_null(b.stopped);
   json["precision"] = b.precision;
   json["cells"] = b.cells;
   json["processed"] = b.processed;

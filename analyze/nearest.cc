@@ -57,8 +57,8 @@ class Search {
     std::optional<Node> stuck;
   };
   struct Worker {
-    Worker(const certify::CompiledSystem& system, const solve::Tuning& tuning, const Ended& ended)
-        : preconditioners(system, ended), contractor(system, tuning, preconditioners, workspace) {}
+    Worker(const certify::CompiledSystem& system, const solve::Heuristics& heuristics, const Ended& ended)
+        : preconditioners(system, ended), contractor(system, heuristics, preconditioners, workspace) {}
     solve::PreconditionerFactory preconditioners;
     certify::NewtonWorkspace workspace;
     solve::Contractor contractor;
@@ -108,9 +108,9 @@ Search::Search(const solve::Prepared& prepared, const std::vector<Polynomial>& d
       branching_(extended_.system, kKernelWeight),
       preconditioners_(compiled_, [&control] { return control.ended(); }),
       arena_(prepared.options.threads) {
-  const solve::Tuning tuning = solve::tuning_for(extended_.system, prepared.reduction.tolerant);
+  const solve::Heuristics heuristics = solve::heuristics_for(extended_.system, prepared.reduction.tolerant);
   for (int k = 0; k < arena_.threads(); ++k)
-    workers_.push_back(std::make_unique<Worker>(compiled_, tuning, [this] { return control_.ended(); }));
+    workers_.push_back(std::make_unique<Worker>(compiled_, heuristics, [this] { return control_.ended(); }));
   solve::TypicalSizes sizes = solve::typical_sizes(compiled_, extended_.system.domain());
   compiled_.set_scales(std::move(sizes.variables));
   equation_sizes_ = std::move(sizes.equations);

@@ -98,7 +98,7 @@ void ParameterMapper::Parts::make_family() {
       symbolic::family_system(model, {q.set, q.kernel, q.corank, question.over, question.fixed});
   Family& f = family.emplace();
   f.copies = copies;
-  f.reduction = solve::reduce_with_parameters(system, parameters);
+  f.reduction = solve::reduce(system, solve::Eliminate::exact, {}, parameters);
   for (const int p : parameters) {
     const auto kept = std::find(f.reduction.kept.begin(), f.reduction.kept.end(), p);
     CORANK_CHECK(kept != f.reduction.kept.end());

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "corank/analyze/json.h"
 #include "corank/analyze/parameter_map.h"
 #include "corank/core/check.h"
 
 namespace corank::analyze {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array kKinds{"proven", "undecided", "centre", "pending"};
 
@@ -21,15 +19,13 @@ MapCellAnswer::Kind kind_from(const std::string& word) {
   throw std::invalid_argument("no kind of cell: " + word);
 }
 
-Json number(const std::optional<int>& n) { return n ? Json(*n) : Json(nullptr); }
-
 Json row(const Box& sides) { return {sides[0].lo(), sides[0].hi(), sides[1].lo(), sides[1].hi()}; }
 
 Json row(const MapCellAnswer& c) {
   Json json = row(c.sides);
   json.push_back(to_string(c.kind));
-  json.push_back(number(c.count));
-  json.push_back(number(c.at_centre));
+  json.push_back(or_null(c.count));
+  json.push_back(or_null(c.at_centre));
   return json;
 }
 
@@ -75,10 +71,7 @@ const char* to_string(MapCellAnswer::Kind kind) { return kKinds[static_cast<std:
 result::MapFile to_file(const MapQuestion& question, const ParameterMap& map) {
   CORANK_CHECK(map.claims.has_value());
   const study::Question& q = question.question;
-  result::MapFile file;
-  file.model = q.model.name();
-  file.model_text = q.model.source_text();
-  file.constants = q.constants;
+  auto file = file_about<result::MapFile>(q);
   file.family = {q.set, q.kernel, q.corank, question.over, question.fixed};
   file.claims = *map.claims;
   return file;

@@ -85,7 +85,4 @@ class PathSpace {
   std::vector<Weights> weights_;  // of each matrix, by which its entries are of like size whatever the unit of length
 };
 
-/// As PathFinder::ends(), of its space.
-std::vector<Box> find_ends(const PathSpace& space, const std::vector<NamedValue>& values, solve::Control& control);
-
 }  // namespace corank::analyze

@@ -2,15 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "corank/analyze/json.h"
 #include "corank/analyze/path.h"
 #include "corank/result/path_file.h"
 
 namespace corank::analyze {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json values_of(const System& system, const Box& box) {
   Json json = Json::object();
@@ -76,8 +74,8 @@ std::string to_json(const PathFinder& finder, const Path& path) {
             {"length_radius", nullptr},
             {"radii", Json::array()},
             {"length", nullptr},
-            {"method", path.method.empty() ? Json() : Json(path.method)},
-            {"reason", path.reason.empty() ? Json() : Json(path.reason)},
+            {"method", or_null(path.method)},
+            {"reason", or_null(path.reason)},
             {"resolution", path.resolution > 0 ? Json(path.resolution) : Json()},
             {"seconds", path.seconds}};
   if (path.tube) {
@@ -110,11 +108,7 @@ std::string to_csv(const PathFinder& finder, const Path& path) {
 }
 
 result::PathFile to_file(const PathFinder& finder, const Path& path) {
-  const study::Question& question = finder.question();
-  result::PathFile file;
-  file.model = question.model.name();
-  file.model_text = question.model.source_text();
-  file.constants = question.constants;
+  auto file = file_about<result::PathFile>(finder.question());
   file.avoid = to_string(finder.options().avoid);
   for (const Variable& v : finder.system().variables) file.variables.push_back(v.name);
   file.tube = *path.tube;

@@ -1,10 +1,9 @@
-#include "corank/analyze/topology.h"
-
 #include <fmt/format.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 
+#include "corank/analyze/json.h"
+#include "corank/analyze/topology.h"
 #include "corank/core/check.h"
 #include "corank/result/shape_file.h"
 #include "corank/result/words.h"
@@ -55,10 +54,7 @@ std::string bounded_surface(int genus, int curves) {
 
 result::ShapeFile to_file(const study::Question& question, const Topology& topology) {
   CORANK_CHECK(topology.certificate != nullptr);
-  result::ShapeFile file;
-  file.model = question.model.name();
-  file.model_text = question.model.source_text();
-  file.constants = question.constants;
+  auto file = file_about<result::ShapeFile>(question);
   file.shape = *topology.certificate;
   return file;
 }
@@ -90,19 +86,16 @@ std::string to_text(const study::Question& question, const Topology& t) {
 }
 
 std::string to_json(const study::Question& question, const Topology& t, bool complete) {
-  using Json = nlohmann::ordered_json;
-  const auto or_null = [](const std::optional<int>& x) { return x ? Json(*x) : Json(); };
-  Json json;
-  json["model"] = question.model.name();
-  json["dimension"] = t.dimension;
-  json["components"] = {{"at_least", t.components.at_least}, {"at_most", or_null(t.components.at_most)}};
-  json["smooth"] = t.smooth;
-  json["ends"] = t.ends;
-  json["smooth_with_ends"] = t.with_ends;
-  json["euler_characteristic"] = or_null(t.euler_characteristic);
-  json["boundary_curves"] = or_null(t.boundary);
-  json["genus"] = t.genus;
-  json["critical_points"] = t.heights.empty() ? Json() : Json(t.heights.front().points());
+  Json json{{"model", question.model.name()},
+            {"dimension", t.dimension},
+            {"components", {{"at_least", t.components.at_least}, {"at_most", or_null(t.components.at_most)}}},
+            {"smooth", t.smooth},
+            {"ends", t.ends},
+            {"smooth_with_ends", t.with_ends},
+            {"euler_characteristic", or_null(t.euler_characteristic)},
+            {"boundary_curves", or_null(t.boundary)},
+            {"genus", t.genus},
+            {"critical_points", t.heights.empty() ? Json() : Json(t.heights.front().points())}};
   json["heights"] = Json::array();
   for (const HeightCount& h : t.heights)
     json["heights"].push_back({{"critical_points", h.points()}, {"by_index", h.by_index}, {"uncounted", h.uncounted}});

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "corank/certify/reduction.h"
-#include "corank/core/ended.h"
 #include "corank/solve/degeneracy.h"
 #include "corank/solve/options.h"
 #include "corank/solve/problem.h"
@@ -17,11 +16,5 @@ namespace corank::solve {
 /// the arena whose threads it may use; the found boxes are taken out.
 Cover assemble(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards, const Work& first_pass,
                const SelfMotions& motions, const Sigma& sigma, Control& control);
-
-/// Replaces pairs of touching regular boxes over the same free variables by one, again and again, where their hull can be
-/// proven as any box is (certify::newton_prove) and is no wider than σ. The proof's image holds every zero of the hull, so
-/// nothing is lost. The result depends on the boxes and their order only; once `ended` is true the other boxes stay as they
-/// are.
-void merge_regular(const Problem& problem, std::vector<Found*>& found, const Ended& ended = {});
 
 }  // namespace corank::solve

@@ -39,8 +39,7 @@ void say_of_points(Cover& cover, Say say) {
 
 constexpr int kDepth = 4;        // halvings of a box in which not all was settled
 constexpr int kRegionDepth = 6;  // of a region's boxes at once, which is wide; less where they are few
-
-constexpr int kSmall = 12;  // rows of L
+constexpr int kSmall = 12;       // rows of L
 
 // Is the box's only solution the exact point that it names?
 bool is_its_point(const CoverBox& box, const Cover& cover) {
@@ -65,6 +64,25 @@ std::vector<Box> hulls_by_region(const Cover& cover) {
   return hulls;
 }
 
+// label(box, what `bound` says of its region) for every box, on all threads; Known{} where nothing is said. What is shown all
+// over the boxes that were cut from a region is shown in each: most need no look of their own.
+template <class Known, class Bound, class Label>
+void label_by_region(ThreadArena& arena, Cover& cover, const Ended& stopped, Bound bound, Label label) {
+  std::vector<Box> hulls = hulls_by_region(cover);
+  std::vector<Known> of_regions(hulls.size());
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, hulls.size(), [&](std::size_t r) {
+      const UpwardRounding rounding;
+      if (!hulls[r].empty() && !stopped()) of_regions[r] = bound(hulls[r]);
+    });
+    hulls = {};
+    tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) {
+      CoverBox& box = cover.boxes[i];
+      label(box, box.region < 0 ? Known{} : of_regions[box.region]);
+    });
+  });
+}
+
 }  // namespace
 
 void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& cover, Control& control) {
@@ -79,13 +97,10 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
     const UpwardRounding rounding;
     point.types = bounds.at(point, stopped);
   }
-  // A rank that is shown all over the boxes that were cut from a region is shown in each: most need no look of their own.
-  std::vector<Box> hulls = hulls_by_region(cover);
   const std::size_t shared = cover.regions.empty() ? 0 : cover.boxes.size() / cover.regions.size();
   const int depth = std::min(kRegionDepth, static_cast<int>(std::bit_width(shared)));
   // Where L is large a rank takes longer than the search takes for a box: then only the types that make up the set.
   const TypeSet wanted = blocks.matrices[static_cast<std::size_t>(Block::all)].rows > kSmall ? blocks.of_set : blocks.asked;
-  std::vector<certify::RankBounds> of_regions(cover.regions.size());
   const auto label = [&](CoverBox& box, certify::RankBounds known) {
     const UpwardRounding rounding;
     if (box.verdict == Verdict::pending || stopped()) return;
@@ -96,19 +111,11 @@ void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& 
     if (!box.types.settle(blocks.of_set)) box.types = bounds.labels(bounds.ranks(box.box, kDepth, known, wanted));
   };
   ThreadArena arena(prepared.options.threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, hulls.size(), [&](std::size_t r) {
-      const UpwardRounding rounding;
-      if (!hulls[r].empty() && !stopped()) of_regions[r] = bounds.ranks(hulls[r], depth, {}, wanted);
-    });
-    hulls = {};
-    tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) {
-      CoverBox& box = cover.boxes[i];
-      label(box, box.region < 0 ? certify::RankBounds{} : of_regions[box.region]);
-    });
-    // A point may be the hull of several boxes, which no region holds.
-    tbb::parallel_for(std::size_t{0}, cover.points.size(), [&](std::size_t i) { label(cover.points[i], {}); });
-  });
+  label_by_region<certify::RankBounds>(
+      arena, cover, stopped, [&](const Box& hull) { return bounds.ranks(hull, depth, {}, wanted); }, label);
+  // A point may be the hull of several boxes, which no region holds.
+  arena.execute(
+      [&] { tbb::parallel_for(std::size_t{0}, cover.points.size(), [&](std::size_t i) { label(cover.points[i], {}); }); });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   cover.statistics.seconds_total += seconds;
   cover.statistics.seconds_certify += seconds;
@@ -145,25 +152,14 @@ void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& co
   const certify::KernelBound bound(system);
   if (!bound.applies()) return;
   const std::vector<certify::PointLocation> places(cover.exact_points.begin(), cover.exact_points.end());
-  std::vector<Box> hulls = hulls_by_region(cover);
-  std::vector<int> of_regions(hulls.size(), 0);  // 0: not known
-  const auto bound_in = [&](CoverBox& box, int known) {
+  const auto bound_in = [&](CoverBox& box, int known) {  // 0: not known
     const UpwardRounding rounding;
     if (box.verdict == Verdict::pending || stopped()) return;
     box.kernel_at_most = known > 0 && known <= system.kernel_vectors ? known : bound.at_most(box.box);
   };
   ThreadArena arena(prepared.options.threads);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, hulls.size(), [&](std::size_t r) {
-      const UpwardRounding rounding;
-      if (!hulls[r].empty() && !stopped()) of_regions[r] = bound.at_most(hulls[r]);
-    });
-    hulls = {};
-    tbb::parallel_for(std::size_t{0}, cover.boxes.size(), [&](std::size_t i) {
-      CoverBox& box = cover.boxes[i];
-      bound_in(box, box.region < 0 ? 0 : of_regions[box.region]);
-    });
-  });
+  label_by_region<int>(
+      arena, cover, stopped, [&](const Box& hull) { return bound.at_most(hull); }, bound_in);
   // Hulls of boxes are held by no region.
   if (!cover.points.empty()) say_of_points(cover, [&](CoverBox& point) { bound_in(point, 0); });
   // Few: one after the other, since a point's number is narrowed while it is compared.

@@ -5,29 +5,16 @@
 #include <cmath>
 
 #include "corank/core/check.h"
+#include "corank/solve/heuristics.h"
 #include "corank/solve/preconditioner.h"
 
 namespace corank::solve {
-namespace {
-
-// Measured on Dextar's sets, see bench/HISTORY.md.
-constexpr double kRankShare = 1;        // of a box's size: singular values below make its solution count as degenerate
-constexpr double kReach = 8;            // of a box's size: how far from it a degenerate solution next to it is looked for
-constexpr double kTiny = 1e-6;          // of the typical sizes
-constexpr double kFinestShare = 1e-13;  // of its typical size: doubles resolve little more
-constexpr double kNoisySize = 2e-3;     // of the typical sizes: in larger boxes it is the choice of Y that makes noise
-constexpr double kOpenShare =
-    1.0 / 8;  // of the size at which degenerate ones wait: how much smaller other unproven boxes get
-constexpr double kPartialShare = 0.05;  // of its typical size: as wide as a box is that nobody says a σ of
-
-}  // namespace
-
 BoxProcessor::BoxProcessor(const Problem& problem, Shard& shard)
     : problem_(problem),
       shard_(shard),
       recorder_(shard.script ? &*shard.script : nullptr),
       preconditioners_(problem.compiled, problem.ended),
-      contractor_(problem.compiled, problem.tuning, preconditioners_, workspace_, recorder_),
+      contractor_(problem.compiled, problem.heuristics, preconditioners_, workspace_, recorder_),
       slicer_(problem, preconditioners_, workspace_, recorder_) {}
 
 certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
@@ -144,7 +131,7 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   const auto& branching = problem_.branching;
   const double width = problem_.relative_width(x);
   const bool noisy = contractor_.noisy() && width < kNoisySize;
-  const certify::NewtonStep* const step = width > problem_.tuning.wide ? &*contractor_.step() : nullptr;
+  const certify::NewtonStep* const step = width > problem_.heuristics.wide ? &*contractor_.step() : nullptr;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
@@ -166,7 +153,7 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   const int free = widest_free(x);
   const auto relative_width = [&](int j) { return x[j].width() / problem_.compiled.scales()[j]; };
   if (free >= 0 && split >= 0 && split_point(x[free]) &&
-      relative_width(free) > problem_.tuning.free_share * relative_width(split))
+      relative_width(free) > problem_.heuristics.free_share * relative_width(split))
     return free;
   return split;
 }

@@ -5,15 +5,10 @@
 #include <limits>
 #include <set>
 
+#include "corank/solve/heuristics.h"
+
 namespace corank::solve {
 namespace {
-
-constexpr double kLeastSmear = 1e-6;  // a variable that no equation holds has its turn, too
-
-// Measured on Peaucellier's inversor in Cartesian coordinates and on a Delta with six rods, see bench/HISTORY.md.
-constexpr int kManyUnknowns = 6;
-constexpr double kLateWeight = 0.01, kLatePatience = 100;
-constexpr double kAloneWeight = 1000;  // before all others, see "Parallelograms in branches" there
 
 // The variable x_j of a x_j = Σ b_i f_i(x_i) + b_0, each f_i a sine or cosine and at least one of them there; −1 for another
 // equation.

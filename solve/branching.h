@@ -11,9 +11,6 @@
 
 namespace corank::solve {
 
-/// Off-centre, because mechanisms put solutions on planes of symmetry, and a face through a solution doubles its boxes.
-inline constexpr double kBisectionPoint = 0.47;
-
 /// Where to bisect a side; nothing where it is too narrow for doubles to divide.
 std::optional<double> split_point(const Interval& side);
 

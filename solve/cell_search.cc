@@ -7,20 +7,9 @@
 
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/heuristics.h"
 
 namespace corank::solve {
-namespace {
-
-constexpr double kProofSpread = 2;  // try a proof below this spread |I − Y·S|
-constexpr double kGain = 0.3;       // repeat Newton while some variable loses this share
-constexpr int kRepeats = 4;
-// A side is not worth bisecting where it is so many times as wide as the solutions move over the cell.
-constexpr double kFollow = 2.5;
-constexpr double kLeastShare = 0.5;  // of the movement of what moves most: what hardly moves is bisected in vain
-constexpr double kFinest = 1e-8;     // of the typical sizes
-
-}  // namespace
-
 CellSearch::CellSearch(const Problem& problem, std::vector<int> parameters)
     : problem_(problem),
       parameters_(std::move(parameters)),
@@ -52,14 +41,14 @@ ParameterCell CellSearch::part(const ParameterCell& cell, const Box& sides) {
 CellSearch::Outcome CellSearch::shrink(const ParameterCell& cell, Box& x, std::optional<certify::Sheet>& sheet) {
   const certify::CompiledSystem& system = problem_.compiled;
   bool near = false;
-  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+  for (int repeat = 0; repeat < kForCells.repeats; ++repeat) {
     if (!propagator_.run(system, x)) return Outcome::empty;
     const Box before = x;
     const certify::NewtonStep step(system, preconditioners_.at_midpoint(x, &unknowns_), x, workspace_);
     if (step.outcome().empty || !step.contract_free(x)) return Outcome::empty;
-    near = step.outcome().regular && step.outcome().spread < kProofSpread;
+    near = step.outcome().regular && step.outcome().spread < kForCells.proof_spread;
     bool gained = false;
-    for (std::size_t j = 0; j < x.size() && !gained; ++j) gained = x[j].width() < (1 - kGain) * before[j].width();
+    for (std::size_t j = 0; j < x.size() && !gained; ++j) gained = x[j].width() < (1 - kForCells.gain) * before[j].width();
     if (!gained) break;
   }
   // What holds the solutions over a part of the cell holds them over all of it where there are none over the rest.
@@ -80,7 +69,7 @@ std::vector<double> CellSearch::limits(const Box& x, double share) {
   std::vector<double> limits = problem_.limits(share);  // where the solutions move without bounds, next to a fold
   const std::vector<double>& scales = problem_.compiled.scales();
   std::vector<double> moves(scales.size(), 0);
-  double most = kFinest;  // of the typical sizes
+  double most = kFinestCell;  // of the typical sizes
   for (int a = 0; a < p.rank(); ++a) {
     const std::size_t j = p.dependent[a];
     for (const int k : parameters_) moves[j] += std::fabs(preconditioners_.sensitivity(a, k)) * x[k].width();
@@ -88,7 +77,7 @@ std::vector<double> CellSearch::limits(const Box& x, double share) {
   }
   for (const int d : p.dependent) {
     const std::size_t j = d;
-    limits[j] = std::min(limits[j], kFollow * std::max(moves[j], kLeastShare * most * scales[j]));
+    limits[j] = std::min(limits[j], kFollow * std::max(moves[j], kLeastMovement * most * scales[j]));
   }
   for (const int k : parameters_) limits[k] = std::numeric_limits<double>::infinity();
   return limits;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "corank/core/check.h"
@@ -45,7 +46,11 @@ struct Coordinator::Search {
         tally(prepared, control, 0),
         judge(prepared, tally, last_number()) {
     if (!from) state.first = state.pass = first_pass(prepared);
-    if (!prepared.reduction.consistent) finish_without_search();
+    if (!prepared.reduction.consistent) {  // there is nothing to search
+      state.pass.boxes.clear();
+      state.cutting = true;
+      state.sigma = sigma_of_search(prepared, judge.problem());
+    }
     for (Shard& shard : state.shards) parts.push_back(std::make_unique<Part>(Part{std::move(shard), {}, {}}));
     next_id = last_number() / kNumbersOfUnit + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
@@ -56,12 +61,6 @@ struct Coordinator::Search {
     advance();
   }
   ~Search() { run.keep(-kept); }
-
-  void finish_without_search() {
-    state.pass.boxes.clear();
-    state.cutting = true;
-    state.sigma = sigma_of_search(prepared, judge.problem());
-  }
 
   ShardNumber last_number() const {
     ShardNumber last = 0;

@@ -2,7 +2,7 @@
 //
 //   Coordinator c(to_bytes(prepare(system, options, control)));
 //   while (!c.done())
-//     for (const std::string& unit : c.take_units(idle workers)) c.add(run_unit(c.prepared_bytes(), unit, budget));
+//     for (const std::string& unit : c.take_units(idle workers)) c.add(UnitRunner(c.prepared_bytes()).run(unit, budget));
 //   Cover cover = c.assemble(control);
 //
 // Units may be run in any order, more than once, and by any number of threads: the first answer counts, and the cover is
@@ -17,7 +17,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -25,6 +24,7 @@
 
 #include "corank/solve/journal.h"
 #include "corank/solve/pace.h"
+#include "corank/solve/problem.h"
 
 namespace corank::solve {
 
@@ -42,21 +42,16 @@ inline constexpr int kMostUnitThreads = 31;
 /// So many numbers of shards are each unit's own: those of its search, then those of its cutting.
 inline constexpr ShardNumber kNumbersOfUnit = 2 * (kMostUnitThreads + 1);
 
-/// Runs a unit of a Coordinator. Throws ShardError where the bytes are none, or of another version.
-std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget = {});
-
-/// The same for a worker that runs many units of one search: what they share is made once. Of one thread.
+/// Runs units of a Coordinator; what units of one search share is made once. Of one thread.
 class UnitRunner {
  public:
+  /// Both throw ShardError where the bytes are none, or of another version.
   explicit UnitRunner(std::string_view prepared);
-  ~UnitRunner();
-  UnitRunner(const UnitRunner&) = delete;
-  UnitRunner& operator=(const UnitRunner&) = delete;
   std::string run(std::string_view unit, const Budget& budget = {});
 
  private:
-  struct Question;
-  std::unique_ptr<Question> question_;
+  Prepared prepared_;
+  Problem problem_;
 };
 
 class Coordinator {
@@ -77,7 +72,7 @@ class Coordinator {
   /// something is under way, fewer wait for others. None, though done() is false: the units that are under way have to be
   /// added first. At the beginning there is one unit, which ends as soon as there are boxes enough for all.
   std::vector<std::string> take_units(std::size_t wanted, std::size_t fewest_boxes = 1);
-  /// What run_unit() has returned. False: nothing is done, since that unit has been added before, or there is no memory for
+  /// What UnitRunner::run() has returned. False: nothing is done, since that unit has been added before, or there is no memory for
   /// it. Throws ShardError where it is none of this search's. The boxes in it stay as they are until the search is done: in
   /// the bytes that `owner` keeps where they are, or else in a copy.
   bool add(std::string_view answer, std::shared_ptr<const void> owner = {});

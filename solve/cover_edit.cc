@@ -3,59 +3,29 @@
 #include <algorithm>
 
 #include "corank/solve/box_order.h"
+#include "corank/solve/recorder.h"
 
 namespace corank::solve {
 namespace {
 using Step = Proof::Step;
 
-// Calls change(kind, its first integer) for every step.
+// Calls change(step, its first integer) for every step.
 template <class Change>
 void change_steps(Proof& proof, Change change) {
-  std::size_t integer = 0;
-  for (const std::uint8_t s : proof.steps) {
-    const Step kind = static_cast<Step>(s);
-    std::int32_t* const at = proof.integers.data() + integer;
-    switch (kind) {
-      case Step::row:
-      case Step::newton:
-      case Step::split:
-      case Step::box:
-      case Step::root: integer += 1; break;
-      case Step::keep: integer += 1 + *at; break;
-      case Step::cut: integer += 2; break;
-      case Step::empty:
-      case Step::elsewhere: break;
-    }
-    change(kind, at);
+  std::int32_t* integers = proof.integers.data();
+  for (std::uint8_t& step : proof.steps) {
+    const std::size_t own = size_of_step(static_cast<Step>(step), integers).integers;
+    change(step, integers);
+    integers += own;
   }
-}
-
-struct Leaf {
-  Step step;
-  int index;
-};
-// Every leaf `box i` becomes leaf_of(i).
-template <class LeafOf>
-void change_leaves(Proof& proof, LeafOf leaf_of) {
-  std::size_t step = 0;
-  change_steps(proof, [&](Step kind, std::int32_t* integers) {
-    if (kind == Step::box) {
-      const Leaf leaf = leaf_of(*integers);
-      *integers = leaf.index;
-      proof.steps[step] = static_cast<std::uint8_t>(leaf.step);
-    }
-    ++step;
-  });
 }
 
 }  // namespace
 
-void CoverEdit::mark(int i, int fate) {
+void CoverEdit::replace(int i, int by) {
   fate_.resize(cover_.boxes.size(), kStays);
-  fate_[i] = fate;
+  fate_[i] = by;
 }
-
-void CoverEdit::replace(int i, int by) { mark(i, by); }
 
 void CoverEdit::replace(const std::vector<std::size_t>& boxes, const Partition& partition, Cover around, CoverBox core) {
   const int first = static_cast<int>(cover_.boxes.size()), region = static_cast<int>(cover_.regions.size());
@@ -66,7 +36,7 @@ void CoverEdit::replace(const std::vector<std::size_t>& boxes, const Partition& 
   }
   cover_.boxes.push_back(std::move(core));
   const int root = cover_.proof && around.proof ? append(partition, *around.proof, first) : 0;
-  for (const std::size_t i : boxes) mark(static_cast<int>(i), kInRoot - root);
+  for (const std::size_t i : boxes) replace(static_cast<int>(i), kInRoot - root);
 }
 
 Proof& CoverEdit::proof() {
@@ -106,9 +76,9 @@ int CoverEdit::append(const Partition& partition, Proof around, int first_box) {
   for (auto part = above.rbegin(); part != above.rend(); ++part) add_leaf(Step::root, *part);
   // The searches of the parts follow.
   const auto combination = static_cast<std::int32_t>(proof.combinations.size());
-  change_steps(around, [&](Step kind, std::int32_t* integers) {
-    if (kind == Step::newton) integers[0] += combination;
-    if (kind == Step::box) integers[0] += first_box;
+  change_steps(around, [&](std::uint8_t step, std::int32_t* integers) {
+    if (static_cast<Step>(step) == Step::newton) integers[0] += combination;
+    if (static_cast<Step>(step) == Step::box) integers[0] += first_box;
   });
   std::move(around.roots.begin(), around.roots.end(), std::back_inserter(proof.roots));
   std::move(around.combinations.begin(), around.combinations.end(), std::back_inserter(proof.combinations));
@@ -135,10 +105,11 @@ void CoverEdit::finish() {
   }
   cover_.boxes = std::move(boxes);
   if (!cover_.proof) return;
-  change_leaves(proof(), [&](int i) {
-    const int by = fate_[i];
-    if (by <= kInRoot) return Leaf{Step::root, kInRoot - by};
-    return Leaf{Step::box, place[by == kStays ? i : by]};
+  change_steps(proof(), [&](std::uint8_t& step, std::int32_t* index) {
+    if (static_cast<Step>(step) != Step::box) return;
+    const int by = fate_[*index];
+    if (by <= kInRoot) step = static_cast<std::uint8_t>(Step::root);
+    *index = by <= kInRoot ? kInRoot - by : place[by == kStays ? *index : by];
   });
   cover_.proof = std::move(proof_);
 }

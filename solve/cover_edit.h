@@ -38,7 +38,6 @@ class CoverEdit {
  private:
   // Of each box: it stays; the box that takes its place; or kInRoot − the root of the proof that does.
   static constexpr int kStays = -1, kInRoot = -2;
-  void mark(int i, int fate);
   Proof& proof();  // the edit's own copy
   // Adds a root for the whole; returns its number.
   int append(const Partition& partition, Proof around, int first_box);

@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/solve/heuristics.h"
+
 namespace corank::solve {
-namespace {
-
-// Measured on Dextar's sets, see bench/HISTORY.md.
-constexpr double kCutMargin = 0.98;   // aim a little below σ: the linearization is not exact
-constexpr int kMostSlabs = 3;         // more parts than that: halve, and look again
-constexpr int kMostPartsAtOnce = 81;  // of a piece with many free sides: the other sides wait
-
-}  // namespace
-
 void CutPlanner::measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece) {
   const auto& system = problem_.compiled;
   const std::size_t n = system.variables(), r = step.dependent().size();

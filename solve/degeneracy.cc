@@ -9,29 +9,12 @@
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/box.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/heuristics.h"
 #include "corank/solve/points.h"
 #include "corank/solve/preconditioner.h"
 
 namespace corank::solve {
 namespace {
-
-constexpr double kPointShare = 1e-7, kOtherShare = 1.0 / 400;  // the last of the sizes
-constexpr double kSetShare = 1.0 / 60;                         // the last along a set of degenerate solutions
-constexpr double kIsolatedHull = 8;                            // in box sizes: boxes around one point hardly reach farther
-constexpr double kWideExtent = 0.25;                           // of the typical sizes: reaches no cluster around one point
-constexpr std::size_t kProbes = 8;                             // of a cluster
-constexpr int kDirections = 3;
-constexpr double kProbeStep = 0.5;     // in box sizes of the first level
-constexpr double kCloseShare = 1e-4;   // of the typical sizes
-constexpr double kTolerance = 1e-6;    // of singular values, at the solutions themselves
-constexpr double kDoublesEnd = 1e-11;  // of the typical sizes
-constexpr double kMotionRankTolerance = 1e-6;
-constexpr int kMotionAttempts = 4;       // in a cluster, without success
-constexpr std::size_t kManyBoxes = 400;  // along a set: dividing them makes too many
-// Whatever they are along, if they have become so many times more since boxes were four times as large: around points their
-// number hardly grows, along a curve by four.
-constexpr std::size_t kTooManyBoxes = 30'000;
-constexpr std::size_t kGrowth = 2;
 
 // Is every equation's zero, linearized, close to x? Where equations are badly scaled, small residuals say little.
 bool may_be_solution(const Problem& problem, const std::vector<double>& x) {
@@ -52,10 +35,10 @@ bool may_be_solution(const Problem& problem, const std::vector<double>& x) {
 // Is there another degenerate solution a step away from this one, in some direction in which solutions may go on?
 bool goes_on(const Problem& problem, const LocalSolution& start, double step, std::mt19937& random) {
   const auto& system = problem.compiled;
-  const auto exact = local_solution(problem, start.x, kTolerance);
+  const auto exact = local_solution(problem, start.x, kSolutionTolerance);
   const int full = std::min(system.equations(), system.variables());
   if (!exact || exact->rank >= full || breaks_inequality(problem, exact->x, step)) return false;
-  const std::vector<double> basis = kernel_basis(problem, *exact, 100 * kTolerance);
+  const std::vector<double> basis = kernel_basis(problem, *exact, 100 * kSolutionTolerance);
   const std::size_t n = system.variables(), k = basis.size() / n;
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < kDirections; ++trial) {
@@ -68,7 +51,7 @@ bool goes_on(const Problem& problem, const LocalSolution& start, double step, st
       for (std::size_t c = 0; c < k; ++c) direction[j] += weights[c] / std::sqrt(length) * basis[j * k + c];
       there.x[j] += step * direction[j] * system.scales()[j];
     }
-    const auto next = local_solution(problem, there.x, kTolerance);
+    const auto next = local_solution(problem, there.x, kSolutionTolerance);
     if (!next || next->rank >= full || !may_be_solution(problem, next->x)) continue;
     double moved = 0;
     for (std::size_t j = 0; j < n; ++j) moved = std::max(moved, std::fabs(next->x[j] - exact->x[j]) / system.scales()[j]);
@@ -146,7 +129,7 @@ bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
   for (std::size_t k = 0; k < known_.size() && !box.proof.proven; ++k) {
     const auto& motion = known_[k].motion;
     known = known || holds_at(motion, problem, box.near.x);
-    if (!known && !precise) precise = local_solution(problem, box.near.x, kTolerance);
+    if (!known && !precise) precise = local_solution(problem, box.near.x, kSolutionTolerance);
     known = known || (precise && holds_at(motion, problem, precise->x));
     if (may_hold_in(motion, box.box.x)) prove_on(k, problem, box);
   }
@@ -198,7 +181,8 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
           std::count_if(cluster.begin(), cluster.end(), [&](std::size_t i) { return !boxes[i].proof.proven; }));
       // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around
       // a few places may be divided on.
-      const std::size_t many = along ? kManyBoxes : std::max(kTooManyBoxes, former > 0 ? kGrowth * former : boxes.size());
+      const std::size_t many =
+          along ? kManyAlongASet : std::max(kTooManyBoxes, former > 0 ? kGrowth * former : boxes.size());
       // Around a surface these places are curves, where each size has twice as many boxes, and the surface is proven in four
       // times as many.
       const bool surface = std::any_of(cluster.begin(), cluster.end(), [&](std::size_t i) {

@@ -19,7 +19,6 @@ class SelfMotions {
   /// where the set is to have dimension 0, and 1/400 else. Along a curve or a larger set of degenerate solutions their
   /// number grows without end: what is not proven there stays as it is.
   std::vector<Reason> prove(const Problem& problem, const System& system, std::vector<Postponed>& boxes, double share);
-  bool none() const { return known_.empty(); }
   /// The largest dimension of a set that was met, as its samples show; 0: none is larger than expected. No claim.
   int observed_dimension() const { return observed_; }
   /// From what restored() makes the same again, with the same reduced system.

@@ -28,7 +28,6 @@ namespace corank::solve {
 namespace {
 
 constexpr std::uint64_t kFaceBoxes = 200'000;  // to search in one face of a blow-up
-constexpr double kUncut = 1e9;                 // a sigma above which no sheet is cut
 constexpr std::size_t kMostOpenBoxes = 3000;   // beyond, clusters are no longer sought
 constexpr int kMostVariables = 150;            // exact points of larger systems take too long
 constexpr int kMostFutile = 16;                // attempts, before a kind of point is no longer sought
@@ -159,9 +158,9 @@ class Prover {
     const auto faces = certify::blow_up(system_, point, ExactNumber::dyadic(radius), ended_);
     if (!faces) return false;
     // Whether there is any box is asked, not how many.
-    const Options options{.sigma = kUncut, .threads = prepared_.options.threads};
     try {
       for (const System& face : *faces) {
+        const Options options{.sigma = uncut_sigma(face), .threads = prepared_.options.threads};
         const Cover solutions = solve(prepare(face, options, control_), control_, kFaceBoxes);
         if (!solutions.complete() || !solutions.boxes.empty()) return false;
       }

@@ -6,14 +6,12 @@
 
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/heuristics.h"
 
 namespace corank::solve {
 namespace {
 
 using Vector = Eigen::VectorXd;
-
-constexpr int kSteps = 40;  // a double solution is approached by halves
-constexpr double kStill = 1e-11;
 
 // The scaled Jacobian and residual.
 void linearize(const Problem& problem, const std::vector<double>& x, Eigen::MatrixXd& a, Vector& b) {
@@ -42,7 +40,7 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
   Vector way = Vector::Zero(system.variables());  // in scales
   Eigen::MatrixXd a;
   Vector b;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kLocalSteps; ++step) {
     linearize(problem, result.x, a, b);
     if (!a.allFinite() || !b.allFinite()) return std::nullopt;
     const auto [shift, rank] = least_squares(a, -b, tolerance);

@@ -6,13 +6,10 @@
 #include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/box_order.h"
+#include "corank/solve/heuristics.h"
 
 namespace corank::solve {
 namespace {
-
-// Boxes that resist proof next to a degenerate solution wait until the others are done, first of this size, then of the
-// next.
-constexpr double kFirstShare = 1.0 / 20, kNextShare = 1.0 / 4;
 
 // The σ that is asked for, the others by default from the hull of a set.
 Sigma chosen_sigma(const Prepared& prepared, const Box& hull, int dimension) {

@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "corank/core/lanes.h"
+#include "corank/solve/heuristics.h"
 #include "corank/solve/problem.h"
 #include "corank/solve/recorder.h"
 
 namespace corank::solve {
 namespace {
 
-// Pivots below this share of a row's largest entry count as zero, each times its variable's scale.
-constexpr double kRankTolerance = 1e-9;
-constexpr int kGaussNewtonSteps = 8;
 constexpr long kLargeTableau = 20'000;  // entries: a step with it is long enough to ask whether the run has ended
 
 // An m×stride tableau by rows, stride a multiple of kLanes, and what pivots are chosen by.
@@ -56,8 +54,6 @@ CORANK_WIDE void exchange(const Pivoting& e, int row, int column) {
     if (!e.done[i]) e.best[i] = largest(t, e.allowed, e.stride) * e.row_scale[i];
   }
 }
-
-constexpr int kExchanges = 16;
 
 }  // namespace
 
@@ -184,7 +180,7 @@ std::vector<int> PreconditionerFactory::chart_of_last(const std::vector<double>&
 void improve(Chart& chart, double gain) {
   const std::size_t k = chart.free.size();
   std::vector<double>& t = chart.tangent;
-  for (int step = 0; step < kExchanges; ++step) {
+  for (int step = 0; step < kMostExchanges; ++step) {
     double best = gain;
     std::size_t at = t.size();
     for (std::size_t i = 0; i < t.size(); ++i)

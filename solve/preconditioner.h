@@ -7,6 +7,7 @@
 
 #include "corank/certify/newton.h"
 #include "corank/core/ended.h"
+#include "corank/solve/heuristics.h"
 
 namespace corank::solve {
 
@@ -60,8 +61,6 @@ struct Chart {
   std::vector<double> tangent;  ///< n×k, row-major
   std::vector<int> free;        ///< k row indices
 };
-
-constexpr double kChartGain = 1.05;  ///< an exchange costs a new elimination
 
 /// Exchanges free variables for others until no exchange multiplies the volume by more than `gain`. Source: maximal-volume
 /// submatrices, key Goreinov2010.

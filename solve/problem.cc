@@ -2,16 +2,10 @@
 
 #include <algorithm>
 
+#include "corank/solve/heuristics.h"
 #include "corank/solve/propagation.h"
 
 namespace corank::solve {
-namespace {
-
-constexpr double kRedundantRankTolerance = 1e-7;  // of redundant equations near their solution
-constexpr double kRoundedRankTolerance = 1e-4;    // of such with rounded coefficients
-
-}  // namespace
-
 std::vector<Polynomial> values_of(const certify::Reduction& reduction) {
   std::vector<Polynomial> values;
   for (const auto& definition : reduction.definitions) values.push_back(definition.value);
@@ -26,7 +20,7 @@ Problem::Problem(const System& system, const certify::Reduction& reduction, std:
       tolerant(reduction.tolerant || redundant.applies()),
       rank_tolerance(reduction.tolerant ? kRoundedRankTolerance : kRedundantRankTolerance),
       branching(reduction.system, 1, system.kernel_vectors),
-      tuning(tuning_for(reduction.system, tolerant)),
+      heuristics(heuristics_for(reduction.system, tolerant)),
       ended(std::move(e)),
       classes_(sigma_classes(system, reduction)) {
   TypicalSizes sizes = typical_sizes(compiled, reduction.system.domain());

@@ -12,9 +12,9 @@
 #include "corank/certify/reduction.h"
 #include "corank/core/cover.h"
 #include "corank/solve/branching.h"
+#include "corank/solve/heuristics.h"
 #include "corank/solve/recorder.h"
 #include "corank/solve/sigma.h"
-#include "corank/solve/tuning.h"
 
 namespace corank::solve {
 
@@ -55,7 +55,7 @@ struct Problem {
   bool tolerant;          ///< coefficients carry a tolerance, or equations may hold within one only
   double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
-  Tuning tuning;
+  Heuristics heuristics;
   /// Of the kept variables, then of the eliminated ones: the σ that applies to it; infinite where none does (kernel vectors,
   /// auxiliaries).
   std::vector<double> sigma;

@@ -5,19 +5,9 @@
 
 #include "corank/certify/projection.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/heuristics.h"
 
 namespace corank::solve {
-namespace {
-
-constexpr double kWorthwhileShare = 0.1;  // a projection that gains less is not followed up; measured, see bench/HISTORY.md
-constexpr std::size_t kTurns = 8;         // of all rows, at most
-constexpr int kDomainRuns = 8;            // of the search domain
-
-constexpr double kNoise = 0.5, kRegularNoise = 8;  // of a side: what rounding alone makes as wide is divided in vain
-constexpr double kNarrow = 1e-3;                   // of the widest side
-
-}  // namespace
-
 bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> x, Recorder* recorder) {
   changed_.resize(system.variables());
   // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows,
@@ -88,7 +78,7 @@ bool Contractor::run(std::span<Interval> x, Statistics& statistics) {
   if (!propagator_.run(system_, x, recorder_)) return false;
   const int n = system_.variables();
   widths_.resize(n);
-  for (int repeat = 0; repeat < tuning_.repeats; ++repeat) {
+  for (int repeat = 0; repeat < heuristics_.repeats; ++repeat) {
     for (int j = 0; j < n; ++j) widths_[j] = x[j].width();
     const auto& p = preconditioners_.at_midpoint(x);
     if (recorder_) recorder_->newton(p, x);
@@ -98,10 +88,10 @@ bool Contractor::run(std::span<Interval> x, Statistics& statistics) {
     if (newton.empty || !step.contract_free(x)) return false;
     regular_ = newton.regular && p.rank() == system_.equations();
     noisy_ = is_noisy(x);
-    worth_proving_ = regular_ && newton.spread < tuning_.proof_spread;
-    near_sheet_ = regular_ && newton.spread < tuning_.sheet_spread;
+    worth_proving_ = regular_ && newton.spread < heuristics_.proof_spread;
+    near_sheet_ = regular_ && newton.spread < heuristics_.sheet_spread;
     bool gained = false;
-    for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - tuning_.gain) * widths_[j];
+    for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - heuristics_.gain) * widths_[j];
     if (!gained) return true;
     if (!propagator_.run(system_, x, recorder_)) return false;
   }

@@ -9,9 +9,9 @@
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/newton.h"
 #include "corank/core/cover.h"
+#include "corank/solve/heuristics.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/recorder.h"
-#include "corank/solve/tuning.h"
 
 namespace corank::solve {
 
@@ -40,9 +40,13 @@ TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<In
 /// Propagation and interval Newton in turns. One per thread. The system, the preconditioners and the workspace have to outlive it.
 class Contractor {
  public:
-  Contractor(const certify::CompiledSystem& system, const Tuning& tuning, PreconditionerFactory& preconditioners,
+  Contractor(const certify::CompiledSystem& system, const Heuristics& heuristics, PreconditionerFactory& preconditioners,
              certify::NewtonWorkspace& workspace, Recorder* recorder = nullptr)
-      : system_(system), tuning_(tuning), preconditioners_(preconditioners), workspace_(workspace), recorder_(recorder) {}
+      : system_(system),
+        heuristics_(heuristics),
+        preconditioners_(preconditioners),
+        workspace_(workspace),
+        recorder_(recorder) {}
 
   /// Shrinks x in place; false: x holds no solution. Every solution in x is in what is left.
   bool run(std::span<Interval> x, Statistics& statistics);
@@ -58,7 +62,7 @@ class Contractor {
   bool is_noisy(std::span<const Interval> x) const;
 
   const certify::CompiledSystem& system_;
-  const Tuning tuning_;
+  const Heuristics heuristics_;
   PreconditionerFactory& preconditioners_;
   certify::NewtonWorkspace& workspace_;
   Recorder* const recorder_;

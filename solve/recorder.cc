@@ -19,6 +19,23 @@ bool fits_float(double y) { return y == 0 || (std::fabs(y) > 1e-30 && std::fabs(
 
 }  // namespace
 
+StepSize size_of_step(Step kind, const std::int32_t* integers) {
+  switch (kind) {
+    case Step::keep: {
+      const std::size_t bounds = integers[0];
+      return {1 + bounds, bounds};
+    }
+    case Step::split: return {1, 1};
+    case Step::cut: {
+      const std::size_t places = integers[1];
+      return {2, places};
+    }
+    case Step::empty:
+    case Step::elsewhere: return {0, 0};
+    default: return {1, 0};
+  }
+}
+
 void round_to_floats(certify::Preconditioner& p) {
   double least = HUGE_VAL, greatest = 0;  // magnitudes; 0 fits
   for (const double y : p.y) {
@@ -133,38 +150,21 @@ Proof Recorder::assemble(const std::vector<const Recorder*>& recorders, std::vec
 
   const auto copy = [&](std::size_t thread, const Node& node) {
     const Recorder& from = *recorders[thread];
-    std::size_t integer = node.begin.integer, real = node.begin.real;
-    const auto take = [&](std::size_t integers, std::size_t reals) {
-      for (std::size_t k = 0; k < integers; ++k) proof.integers.push_back(from.script_.integers[integer++]);
-      for (std::size_t k = 0; k < reals; ++k) proof.reals.push_back(from.script_.reals[real++]);
-    };
+    auto integer = from.script_.integers.begin() + static_cast<std::ptrdiff_t>(node.begin.integer);
+    auto real = from.script_.reals.begin() + static_cast<std::ptrdiff_t>(node.begin.real);
     for (std::size_t s = node.begin.step; s < node.end.step; ++s) {
       const Step kind = static_cast<Step>(from.script_.steps[s]);
+      const auto [integers, reals] = size_of_step(kind, std::to_address(integer));
       proof.steps.push_back(from.script_.steps[s]);
-      const std::int32_t first = integer < from.script_.integers.size() ? from.script_.integers[integer] : 0;
-      switch (kind) {
-        case Step::row: take(1, 0); break;
-        case Step::newton:
-          take(1, 0);
-          // Numbered as they are used, whichever thread has recorded them.
-          proof.integers.back() = static_cast<std::int32_t>(proof.combinations.size());
-          proof.combinations.push_back(from.script_.combinations[first]);
-          break;
-        case Step::keep: take(1 + first, first); break;
-        case Step::split: take(1, 1); break;
-        case Step::cut: {
-          const std::size_t places = from.script_.integers[integer + 1];
-          take(2, places);
-          break;
-        }
-        case Step::box:
-          take(1, 0);
-          proof.integers.back() = place.at(from.leaf(first));
-          break;
-        case Step::empty:
-        case Step::elsewhere: break;
-        case Step::root: CORANK_CHECK(false); break;
+      proof.integers.insert(proof.integers.end(), integer, integer + static_cast<std::ptrdiff_t>(integers));
+      proof.reals.insert(proof.reals.end(), real, real + static_cast<std::ptrdiff_t>(reals));
+      if (kind == Step::box) proof.integers.back() = place.at(from.leaf(*integer));
+      if (kind == Step::newton) {  // numbered as they are used, whichever thread has recorded them
+        proof.integers.back() = static_cast<std::int32_t>(proof.combinations.size());
+        proof.combinations.push_back(from.script_.combinations[*integer]);
       }
+      integer += static_cast<std::ptrdiff_t>(integers);
+      real += static_cast<std::ptrdiff_t>(reals);
     }
   };
   for (const NodeId root : nodes) {

@@ -26,6 +26,12 @@ struct NodeId {
 /// A leaf `box i` of a script: which of the boxes that a shard has found.
 using LeafId = NodeId;
 
+/// So many integers and reals belong to a step of a script, whose integers begin there.
+struct StepSize {
+  std::size_t integers, reals;
+};
+StepSize size_of_step(Proof::Step kind, const std::int32_t* integers);
+
 class Recorder {
  public:
   Recorder() = default;

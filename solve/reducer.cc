@@ -134,8 +134,7 @@ struct GivenUp {};
 class Reducer {
  public:
   Reducer(const System& system, Eliminate eliminate, const Ended& ended, std::vector<int> parameters)
-      : eliminate_(eliminate),
-        poll_([&ended] {
+      : poll_([&ended] {
           if (is_over(ended)) throw GivenUp();
         }),
         rewriting_(system, eliminate != Eliminate::exact, std::move(parameters), poll_) {}
@@ -157,11 +156,9 @@ class Reducer {
     rewriting_.apply(SumOfEquations{rewriting_.origin(row), rewriting_.origin(other), factor});
   }
   void eliminate(std::size_t row, int variable) { rewriting_.apply(Elimination{variable, rewriting_.origin(row)}); }
-  bool may_add() const { return eliminate_ != Eliminate::none && rewriting_.may_add(); }
   // Does the value put in for the variable leave polynomials of moderate length, degree and coefficients?
   bool affordable(int variable, const Polynomial& value) const;
 
-  const Eliminate eliminate_;
   const std::function<void()> poll_;
   certify::Rewriting rewriting_;
 };
@@ -193,14 +190,12 @@ bool Reducer::affordable(int variable, const Polynomial& value) const {
 }
 
 void Reducer::eliminate_fixed() {
-  if (eliminate_ == Eliminate::none) return;
   for (int j = 0; j < rewriting_.system().size(); ++j)
     if (const auto value = rewriting_.fixed_value(j); value && affordable(j, *value)) rewriting_.apply(Elimination{j, {}});
 }
 
 bool Reducer::eliminate_tied() {
   poll_();
-  if (eliminate_ == Eliminate::none) return false;
   for (std::size_t i = 0; i < rewriting_.system().equations.size(); ++i) {
     const Polynomial& f = rewriting_.system().equations[i];
     const std::vector<int> variables = certify::variables_of(f);
@@ -217,7 +212,6 @@ bool Reducer::eliminate_tied() {
 
 bool Reducer::eliminate_image() {
   poll_();
-  if (eliminate_ == Eliminate::none) return false;
   std::vector<int> uses(rewriting_.system().variables.size(), 0);
   for (const auto* rows : {&rewriting_.system().equations, &rewriting_.system().inequalities})
     for (const Polynomial& f : *rows)
@@ -267,7 +261,7 @@ ExactNumber Reducer::exact_factor(const RowSum& sum) const {
 }
 
 bool Reducer::eliminate_shared() {
-  if (!may_add()) return false;
+  if (!rewriting_.may_add()) return false;
   std::vector<Polynomial> rows = rewriting_.system().equations;
   for (Polynomial& f : rows)
     if (has_long_number(f)) f.monomials.clear();
@@ -280,7 +274,7 @@ bool Reducer::eliminate_shared() {
 }
 
 bool Reducer::shorten() {
-  if (!may_add()) return false;
+  if (!rewriting_.may_add()) return false;
   const std::vector<double> of_variables = sizes();
   std::vector<Polynomial> rows;
   for (const Polynomial& f : rewriting_.system().equations)
@@ -314,22 +308,14 @@ Reduction Reducer::run() {
   return rewriting_.result();
 }
 
+}  // namespace
+
 Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended, const std::vector<int>& parameters) {
   try {
     return Reducer(system, eliminate, ended, parameters).run();
   } catch (const GivenUp&) {
     return certify::Rewriting(system, true).result();
   }
-}
-
-}  // namespace
-
-Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended) {
-  return reduce(system, eliminate, ended, {});
-}
-
-Reduction reduce_with_parameters(const System& system, const std::vector<int>& parameters) {
-  return reduce(system, Eliminate::exact, {}, parameters);
 }
 
 Reduction reduce(const System& system, const Ended& ended) {

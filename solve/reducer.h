@@ -17,22 +17,20 @@ namespace corank::solve {
 
 /// Which equations may define a variable.
 enum class Eliminate {
-  none,
   exact,  ///< all, in exact arithmetic: enclosures carry no tolerance
   /// those with integer coefficients, which carry no tolerance; the others' enclosures are widened by the tolerance
   integers
 };
 
 /// Throws std::invalid_argument where the system is not valid. Once `ended` is true the reduction is given up: the result is
-/// the system as it is, without any step, which is a reduction, too.
-certify::Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended = {});
+/// the system as it is, without any step, which is a reduction, too. `parameters`: variables for whose every value the
+/// question is asked, which are kept.
+certify::Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended = {},
+                          const std::vector<int>& parameters = {});
 
 /// Eliminate::exact where the system carries no tolerance, or where it is over-determined and that ends consistent and no
 /// longer so: then only `partial` needs the tolerance, every other proof is about the exact system. Else
 /// Eliminate::integers.
 certify::Reduction reduce(const System& system, const Ended& ended = {});
-
-/// Eliminate::exact for a question that is asked for every value of some variables, the parameters, which are kept.
-certify::Reduction reduce_with_parameters(const System& system, const std::vector<int>& parameters);
 
 }  // namespace corank::solve

@@ -8,22 +8,12 @@
 #include "corank/certify/refinement.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/heuristics.h"
 
 namespace corank::solve {
 namespace {
 using Matrix = Eigen::MatrixXd;
 
-constexpr double kTolerance = 1e-7;  // of singular values at samples
-constexpr double kStep = 0.15;       // between samples, in typical sizes
-// Doubles find solutions at which the rank drops to a few digits only. What is read off is verified exactly: it may be
-// wrong.
-constexpr int kBits = 128;  // of the arithmetic that makes samples precise
-constexpr double kNullTolerance = 1e-10;
-constexpr double kRelationTolerance = 1e-9;
-constexpr double kShortStep = 0.03;         // for directions, in typical sizes
-constexpr double kDirectionShare = 0.15;    // of what the set's curvature and the samples' errors make of a direction
-constexpr std::size_t kDirectionsEach = 4;  // tried for each dimension of the kernel
-constexpr std::size_t kDimensionSamples = 3;
 // Of the numbers in a fraction, at most, and how near it has to be, relative. Taken in turns: an irrational number is near
 // to a fraction of long numbers, and samples that lie close together give few digits.
 struct Longest {
@@ -71,7 +61,7 @@ std::vector<LocalSolution> walk(const Problem& problem, const LocalSolution& sta
   for (double& h : heading) h = normal(random);
   for (std::size_t trial = 0; trial < 4 * count && samples.size() < count; ++trial) {
     const LocalSolution& here = samples.back();
-    const std::vector<double> basis = kernel_basis(problem, here, 100 * kTolerance);
+    const std::vector<double> basis = kernel_basis(problem, here, 100 * kSampleTolerance);
     const std::size_t k = basis.size() / n;
     if (k == 0) break;
     // The heading's part along the set, and a little of chance.
@@ -87,9 +77,9 @@ std::vector<LocalSolution> walk(const Problem& problem, const LocalSolution& sta
     LocalSolution there = here;
     for (std::size_t j = 0; j < n; ++j) {
       heading[j] = direction[j] / std::sqrt(length);
-      there.x[j] += kStep * heading[j] * scales[j];
+      there.x[j] += kSampleStep * heading[j] * scales[j];
     }
-    const auto next = local_solution(problem, there.x, kTolerance);
+    const auto next = local_solution(problem, there.x, kSampleTolerance);
     if (!next || next->rank != start.rank) {
       for (double& h : heading) h = normal(random);  // another way
       continue;
@@ -105,7 +95,7 @@ int local_dimension(const Problem& problem, const LocalSolution& at) {
   std::normal_distribution<double> normal;
   const std::vector<double>& scales = problem.compiled.scales();
   const std::size_t n = scales.size();
-  const std::vector<double> basis = kernel_basis(problem, at, 100 * kTolerance);
+  const std::vector<double> basis = kernel_basis(problem, at, 100 * kSampleTolerance);
   const std::size_t k = basis.size() / n;
   Matrix moves(static_cast<Eigen::Index>(kDirectionsEach * k), static_cast<Eigen::Index>(n));
   moves.setZero();
@@ -117,7 +107,7 @@ int local_dimension(const Problem& problem, const LocalSolution& at) {
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t c = 0; c < k; ++c)
         there.x[j] += kShortStep * weights[c] / std::sqrt(length) * basis[j * k + c] * scales[j];
-    const auto next = local_solution(problem, there.x, kTolerance);
+    const auto next = local_solution(problem, there.x, kSampleTolerance);
     if (!next) continue;
     for (std::size_t j = 0; j < n; ++j)
       moves(trial, static_cast<Eigen::Index>(j)) = (next->x[j] - at.x[j]) / (kShortStep * scales[j]);
@@ -145,7 +135,7 @@ std::vector<LocalSolution> precise(const System& system, const std::vector<Local
     const LocalSolution& sample = samples[k * samples.size() / wanted];
     std::vector<ExactNumber> start;
     for (const double c : sample.x) start.push_back(ExactNumber::dyadic(c));
-    const auto zero = certify::approximate_zero(system, start, kBits);
+    const auto zero = certify::approximate_zero(system, start, kSampleBits);
     if (!zero) continue;
     result.push_back({{}, sample.rank});
     for (const ExactNumber& c : *zero) result.back().x.push_back(c.enclose().mid());
@@ -253,7 +243,7 @@ std::vector<Polynomial> rational_relations(const Problem& problem, const Echelon
 
 MotionCandidate find_self_motion(const Problem& problem, const System& system, const LocalSolution& from) {
   MotionCandidate candidate;
-  const auto start = local_solution(problem, from.x, kTolerance);
+  const auto start = local_solution(problem, from.x, kSampleTolerance);
   const int n = problem.compiled.variables(), expected = std::max(0, n - problem.compiled.equations());
   if (!start) return candidate;
   if (n - start->rank <= expected) return candidate;

@@ -7,6 +7,7 @@
 
 #include "corank/certify/sheet_range.h"
 #include "corank/core/box.h"
+#include "corank/solve/heuristics.h"
 
 namespace corank::solve {
 namespace {
@@ -14,26 +15,6 @@ using certify::Location;
 using certify::NewtonStep;
 using certify::Preconditioner;
 using certify::Sheet;
-
-// Measured on Dextar's sets, see bench/HISTORY.md.
-constexpr int kTightenings = 2;
-constexpr double kNearSigma = 1.2;     // of σ: a wider piece is cut anyway, however well it is tightened
-constexpr int kPointTightenings = 20;  // an isolated solution is tightened until its box stops shrinking
-constexpr double kStaleSpread = 0.1;   // |I − Y·S| beyond which a part gets its own Y
-constexpr double kRoom = 1.0 / 128;    // of a side, at each end
-constexpr double kLeastRoom = 4e-16;   // of its magnitude
-// Of σ: a narrower piece of a curve gets a step of its own, after which it may be a fragment that merges (at 0.85 in
-// solve/merging.cc).
-constexpr double kPossibleFragment = 0.92;
-constexpr double kTrimShare = 0.9;
-constexpr double kFutileShare = 0.95;
-constexpr int kFutileCuts = 10;
-constexpr double kGainOfAChart = 1.2;  // another chart has seams with this one
-constexpr double kPartsForAChart = 4;  // a piece to be cut into fewer stays in its chart
-constexpr int kMostChartsTried = 6;
-constexpr double kNoSigma = 1e6;              // of the typical size, where a variable has no σ: never free
-constexpr int kBoundaryDepth = 2;             // halvings of a piece that may leave the domain
-constexpr std::size_t kMostHalvedSides = 12;  // at once: 4,096 parts
 
 }  // namespace
 

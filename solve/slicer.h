@@ -14,8 +14,6 @@
 
 namespace corank::solve {
 
-/// Halvings of a piece on which redundant equations are bounded.
-inline constexpr int kPartialDepth = 8;
 /// A thread that cuts looks so rarely whether it is to end.
 inline constexpr unsigned kPiecesBetweenChecks = 16;
 

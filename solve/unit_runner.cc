@@ -33,45 +33,33 @@ void cut_at_once(const Prepared& prepared, const Problem& problem, ShardNumber l
 
 }  // namespace
 
-std::string run_unit(std::string_view prepared, std::string_view unit, const Budget& budget) {
-  return UnitRunner(prepared).run(unit, budget);
+UnitRunner::UnitRunner(std::string_view prepared)
+    : prepared_(prepared_from(prepared)), problem_(prepared_.system, prepared_.reduction, {}) {
+  prepared_.options.max_found = prepared_.options.max_solutions = 0;
 }
 
-struct UnitRunner::Question {
-  explicit Question(std::string_view bytes)
-      : prepared(prepared_from(bytes)), problem(prepared.system, prepared.reduction, {}) {
-    prepared.options.max_found = prepared.options.max_solutions = 0;
-  }
-  Prepared prepared;
-  Problem problem;
-};
-
-UnitRunner::UnitRunner(std::string_view prepared) : question_(std::make_unique<Question>(prepared)) {}
-UnitRunner::~UnitRunner() = default;
-
 std::string UnitRunner::run(std::string_view bytes, const Budget& budget) {
-  Prepared& prepared = question_->prepared;
-  Unit unit = unit_from(bytes, prepared);
-  prepared.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
+  Unit unit = unit_from(bytes, prepared_);
+  prepared_.options.threads = std::clamp(budget.threads, 1, kMostUnitThreads);
   Control control({.time = unit.cut ? 0 : budget.seconds, .boxes = unit.cut ? 0 : unit.boxes, .clock = budget.clock});
-  Tally tally(prepared, control, unit.cut ? 0 : budget.boxes);
+  Tally tally(prepared_, control, unit.cut ? 0 : budget.boxes);
   const ShardNumber number = unit.id * kNumbersOfUnit;
   Answer answer{unit.id, {}};
   {
-    Pool pool(prepared, tally, number, &question_->problem);
+    Pool pool(prepared_, tally, number, &problem_);
     if (unit.cut) {
       Shard sheets(0, false);
       sheets.sheets = std::move(unit.sheets);
       pool.set_sigma(unit.sigma);
       pool.cut({&sheets});
     } else {
-      pool.set_sigma(sigma_of_search(prepared, pool.problem()));
+      pool.set_sigma(sigma_of_search(prepared_, pool.problem()));
       pool.search(unit.work);
     }
     answer.shards = pool.take_shards();
   }
-  if (!unit.cut && sigma_is_known(prepared))
-    cut_at_once(prepared, question_->problem, number + kMostUnitThreads + 1, budget.found, answer);
+  if (!unit.cut && sigma_is_known(prepared_))
+    cut_at_once(prepared_, problem_, number + kMostUnitThreads + 1, budget.found, answer);
   return to_bytes(answer);
 }
 

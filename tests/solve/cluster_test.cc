@@ -37,7 +37,7 @@ Ran run_in_random_order(const Prepared& prepared, unsigned seed, std::uint64_t b
       const std::string unit = waiting.back();
       waiting.pop_back();
       const Budget budget{.boxes = boxes, .threads = 1 + ran.units++ % 3, .found = one_in(2) ? random() % 30 : 100'000};
-      answers.push_back(run_unit(coordinator->prepared_bytes(), unit, budget));
+      answers.push_back(UnitRunner(coordinator->prepared_bytes()).run(unit, budget));
       if (one_in(4)) answers.push_back(second.run(unit, {.boxes = boxes / 2 + 1}));  // by two workers
       if (one_in(3) && !waiting.empty()) continue;                                   // they come later
     }
@@ -133,8 +133,9 @@ Limited run_with_limits(const Prepared& prepared, Control& control, unsigned see
       ADD_FAILURE() << "nothing to do, and neither done nor ended";
       break;
     }
-    const std::string answer = run_unit(coordinator.prepared_bytes(), waiting.back(),
-                                        {.boxes = 1 + random() % 200, .threads = 1 + random() % 2 > 1 ? 2 : 1});
+    const std::string answer =
+        UnitRunner(coordinator.prepared_bytes())
+            .run(waiting.back(), {.boxes = 1 + random() % 200, .threads = 1 + random() % 2 > 1 ? 2 : 1});
     waiting.pop_back();
     coordinator.add(answer);
     ran.kept = std::max(ran.kept, control.kept());
@@ -262,8 +263,8 @@ TEST(Cluster, RefusesWhatIsNotItsOwn) {
   Coordinator one(to_bytes(surface)), other(to_bytes(curve));
   const std::vector<std::string> units = one.take_units(1), others = other.take_units(1);
   ASSERT_EQ(units.size(), 1u);
-  const std::string answer = run_unit(one.prepared_bytes(), units[0], {.boxes = 10});
-  EXPECT_THROW(run_unit(other.prepared_bytes(), units[0]), ShardError) << "of another system";
+  const std::string answer = UnitRunner(one.prepared_bytes()).run(units[0], {.boxes = 10});
+  EXPECT_THROW(UnitRunner(other.prepared_bytes()).run(units[0]), ShardError) << "of another system";
   EXPECT_THROW(other.add(answer), ShardError);
   EXPECT_THROW(one.add(units[0]), ShardError) << "a unit is no answer";
   std::string old = answer;

@@ -1,7 +1,5 @@
 // What is found to follow from equations does; what a model claims to follow is found where it does, and refused elsewhere;
 // and searches that use it lose no planted solution.
-#include "corank/solve/implied_equations.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "corank/certify/reduction.h"
 #include "corank/check/checker.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/implied_equations.h"
 #include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 #include "corank/tests/solve/cover_questions.h"
@@ -37,7 +36,7 @@ SystemBuilder frame() {
 
 std::vector<Polynomial> implied(const System& system) {
   const UpwardRounding rounding;
-  certify::Reduction r = reduce(system, Eliminate::none);
+  certify::Reduction r = certify::Rewriting(system, true).result();
   add_implied_equations({}, r);
   return r.system.implied;
 }
