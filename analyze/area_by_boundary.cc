@@ -77,9 +77,7 @@ class Grid {
     return result;
   }
 
-  std::uint64_t marked() const {
-    return static_cast<std::uint64_t>(std::count(from_boundary_.begin(), from_boundary_.end(), std::uint16_t{0}));
-  }
+  std::uint64_t marked() const { return static_cast<std::uint64_t>(std::ranges::count(from_boundary_, std::uint16_t{0})); }
   double square() const { return h_ * h_; }
   /// A part of the square's middle.
   Interval x_of(std::int64_t k) const { return middle(x0_ + k % nx_); }
@@ -134,7 +132,7 @@ bool has_no_other_ends(const symbolic::Mechanism& model, const System& system, i
   for (const symbolic::Limit& limit : symbolic::effective_limits(model)) limited.insert(limit.coordinate);
   for (const Polynomial& f : system.inequalities) {
     const bool of_limit =
-        std::any_of(limited.begin(), limited.end(), [&](const std::string& name) { return f.source == "range of " + name; });
+        std::ranges::any_of(limited, [&](const std::string& name) { return f.source == "range of " + name; });
     if (!of_limit) return false;
   }
   for (const Angle& angle : system.angles)
@@ -191,7 +189,7 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
     for (const Box& b : boundary) grid.mark(b[0], b[1]);
     std::vector<Grid::Component> components = grid.components();
     std::erase_if(components, [](const Grid::Component& c) { return c.outer; });
-    std::sort(components.begin(), components.end(), [](const auto& a, const auto& b) { return a.squares > b.squares; });
+    std::ranges::sort(components, [](const auto& a, const auto& b) { return a.squares > b.squares; });
     AreaBounds bounds;
     std::uint64_t in = 0, open = grid.marked();
     for (std::size_t k = 0; k < components.size(); ++k) {
@@ -214,7 +212,7 @@ bool has_plane_of_lengths(const symbolic::Mechanism& model) {
     const int k = model.find_coordinate(name);
     return k >= 0 && model.coordinates()[k].kind == symbolic::CoordinateKind::length;
   };
-  return model.outputs().size() == 2 && std::all_of(model.outputs().begin(), model.outputs().end(), is_length);
+  return model.outputs().size() == 2 && std::ranges::all_of(model.outputs(), is_length);
 }
 
 std::optional<Interval> area(const study::Question& question, int threads, bool anyway, solve::Control& control) {

@@ -24,9 +24,9 @@ const char* name_of(std::size_t locus) { return locus == 0 ? "forward" : "invers
 void find_sides(AspectCusp& cusp, const std::vector<int>& outer, const std::vector<std::size_t>& places,
                 const SignCells& cells, const Pieces& pieces) {
   std::vector<int> signs = cells.signs(cusp.at);
-  if (std::count(signs.begin(), signs.end(), 0) != 1) return;
-  const std::size_t zero = std::find(signs.begin(), signs.end(), 0) - signs.begin();
-  const auto own = std::find(places.begin(), places.end(), zero);
+  if (std::ranges::count(signs, 0) != 1) return;
+  const std::size_t zero = std::ranges::find(signs, 0) - signs.begin();
+  const auto own = std::ranges::find(places, zero);
   if (own == places.end()) return;
   const int sign = outer[own - places.begin()];
   if (sign == 0) return;
@@ -101,8 +101,7 @@ void check_parity(const study::Question& question, int threads, solve::Control& 
   cusps.euler_characteristic = shape.euler_characteristic;
   for (std::size_t locus = 0; locus < 2; ++locus) {
     bool& all = cusps.all[locus];
-    const auto count =
-        std::count_if(cusps.list.begin(), cusps.list.end(), [&](const AspectCusp& c) { return c.forward == (locus == 0); });
+    const auto count = std::ranges::count_if(cusps.list, [&](const AspectCusp& c) { return c.forward == (locus == 0); });
     if (!all || (count - *shape.euler_characteristic) % 2 == 0) continue;
     all = false;
     cusps.reasons.push_back(fmt::format(

@@ -231,7 +231,7 @@ PieceImages images(SignCells& cells, const Pieces& pieces, int x, int y, int row
     imager.add(cell, cell.sides, part.signs, kDepth, touched[p], covered[p]);
   }
   const auto both = [](const std::vector<bool>& a, const std::vector<bool>& b) {
-    return std::find(a.begin(), a.end(), true) != a.end() &&
+    return std::ranges::find(a, true) != a.end() &&
            std::inner_product(a.begin(), a.end(), b.begin(), false, std::logical_or<>(), std::logical_and<>());
   };
   for (std::size_t p = 0; p < n; ++p) {

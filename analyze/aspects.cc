@@ -48,15 +48,15 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   for (const auto& e : loci.factors[1]) result.inverse_factors.push_back(e.text());
 
   const std::vector<Interval> domain = result.system.domain();
-  const auto widest = std::max_element(domain.begin(), domain.end(),
-                                       [](const Interval& a, const Interval& b) { return a.width() < b.width(); });
+  const auto widest =
+      std::ranges::max_element(domain, [](const Interval& a, const Interval& b) { return a.width() < b.width(); });
   const solve::Options search{.sigma = 2 * widest->width() + 2,  // sheets are not cut
                               .threads = options.threads,
                               .proof = options.certificate,
                               .proof_of_parts = false};
   const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
   // A box that a limit has left is no sheet.
-  if (!std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet)) {
+  if (!std::ranges::all_of(cover.boxes, is_sheet)) {
     result.reason = "C-space is not shown to be smooth in the search domain";
     return result;
   }

@@ -84,8 +84,7 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
   file.lists[0].factors = file.lists[1].factors = a.forward_factors;
   file.lists[2].factors = a.inverse_factors;
   for (const std::string& f : a.inverse_factors)
-    if (std::find(a.forward_factors.begin(), a.forward_factors.end(), f) == a.forward_factors.end())
-      file.lists[0].factors.push_back(f);
+    if (std::ranges::find(a.forward_factors, f) == a.forward_factors.end()) file.lists[0].factors.push_back(f);
   const std::array<const Pieces*, 3> lists{&a.aspects, &a.assembly_modes, &a.working_modes};
   for (std::size_t k = 0; k < lists.size(); ++k) {
     PieceClaims& claims = file.lists[k];

@@ -38,17 +38,13 @@ class BallMaker {
   ModelError error(const std::string& problem, const std::string& expectation) const {
     return question_error(question_, problem, expectation);
   }
-  bool is_in_ball(const std::string& name) const {
-    return std::find(options_.in.begin(), options_.in.end(), name) != options_.in.end();
-  }
+  bool is_in_ball(const std::string& name) const { return std::ranges::find(options_.in, name) != options_.in.end(); }
   bool is_output_angle(const std::string& name) const {
     const std::vector<std::string>& outputs = question_.model.outputs();
-    return coordinate(name).kind == CoordinateKind::angle &&
-           std::find(outputs.begin(), outputs.end(), name) != outputs.end();
+    return coordinate(name).kind == CoordinateKind::angle && std::ranges::find(outputs, name) != outputs.end();
   }
   const NamedRange* given_range(const std::string& name) const {
-    const auto given =
-        std::find_if(options_.ranges.begin(), options_.ranges.end(), [&](const NamedRange& r) { return r.name == name; });
+    const auto given = std::ranges::find_if(options_.ranges, [&](const NamedRange& r) { return r.name == name; });
     return given == options_.ranges.end() ? nullptr : &*given;
   }
   const Coordinate& coordinate(const std::string& name) const;
@@ -242,8 +238,7 @@ Ball BallMaker::make() {
     throw error("the ball has no coordinates", "one or more of the model's coordinates, as in --in x,y");
   for (const NamedValue& v : options_.at) check_value(v);
   for (const std::string& name : options_.in) {
-    if (std::count(options_.in.begin(), options_.in.end(), name) > 1)
-      throw error("'" + name + "' is twice in the ball", "each once");
+    if (std::ranges::count(options_.in, name) > 1) throw error("'" + name + "' is twice in the ball", "each once");
     add_center(name);
   }
   for (const NamedRange& r : options_.ranges)

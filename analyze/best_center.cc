@@ -95,8 +95,8 @@ class Search {
   }
 
   void divide(Cell cell) {
-    const auto widest = std::max_element(cell.x.begin(), cell.x.end(),
-                                         [](const Interval& a, const Interval& b) { return a.width() < b.width(); });
+    const auto widest =
+        std::ranges::max_element(cell.x, [](const Interval& a, const Interval& b) { return a.width() < b.width(); });
     const std::size_t j = widest - cell.x.begin();
     const Interval side = cell.x[j];
     const double where = side.mid();

@@ -55,7 +55,7 @@ Expression number(double x) { return symbolic::parse_expression(ExactNumber::dya
 BallOptions about_middle(BallOptions ball, const std::vector<std::string>& names, const Box& region) {
   std::vector<std::string> in = names;
   for (const std::string& name : ball.in)
-    if (std::find(names.begin(), names.end(), name) == names.end()) in.push_back(name);
+    if (std::ranges::find(names, name) == names.end()) in.push_back(name);
   ball.in = in;
   for (std::size_t k = 0; k < names.size(); ++k) ball.at.push_back({names[k], number(region[k].mid())});
   return ball;
@@ -77,11 +77,11 @@ CenterField::CenterField(const study::Question& question, BallOptions ball, cons
                          const solve::Options& search, solve::Control& control)
     : search_(search), control_(control) {
   for (const NamedRange& range : region) {
-    if (std::find(names_.begin(), names_.end(), range.name) != names_.end())
+    if (std::ranges::find(names_, range.name) != names_.end())
       throw question_error(question, "'" + range.name + "' is twice in the region", "each once");
-    if (!ball.in.empty() && std::find(ball.in.begin(), ball.in.end(), range.name) == ball.in.end())
+    if (!ball.in.empty() && std::ranges::find(ball.in, range.name) == ball.in.end())
       throw question_error(question, "'" + range.name + "' is not in the ball", "coordinates of the ball, as the centre's");
-    if (std::any_of(ball.at.begin(), ball.at.end(), [&](const NamedValue& v) { return v.name == range.name; }))
+    if (std::ranges::any_of(ball.at, [&](const NamedValue& v) { return v.name == range.name; }))
       throw question_error(question, "'" + range.name + "' has a value and a region", "one of them");
     region_.push_back(interval(question, range));
     names_.push_back(range.name);
@@ -146,7 +146,7 @@ CenterField::Configurations CenterField::configurations(std::span<const Interval
   }
   const Cover cover = search_briefly(std::move(system), 1, kBoxes, search_.threads, control_);
   result.excluded = cover.complete() && cover.boxes.empty();
-  const auto box = std::find_if(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) { return is_proven(b.verdict); });
+  const auto box = std::ranges::find_if(cover.boxes, [](const auto& b) { return is_proven(b.verdict); });
   result.proven = box != cover.boxes.end();
   for (std::size_t k = 0; result.proven && k < places.size(); ++k)
     result.near.push_back(std::clamp(box->box[places[k]].mid(), centers[k].lo(), centers[k].hi()));

@@ -34,8 +34,7 @@ Clearance::Center center_of(const study::Question& question, const Ball& ball, c
   constexpr std::uint64_t kSolutions = 64;  // a proven sheet may pass by its box: one of them need not hold a configuration
   const Cover cover = search_briefly(study::system(at), kSolutions, 0, search.threads, control);
   if (cover.complete() && cover.boxes.empty()) return Clearance::Center::not_assembled;
-  const bool holds_one =
-      std::any_of(cover.boxes.begin(), cover.boxes.end(), [](const auto& b) { return is_proven(b.verdict); });
+  const bool holds_one = std::ranges::any_of(cover.boxes, [](const auto& b) { return is_proven(b.verdict); });
   return holds_one ? Clearance::Center::assembled : Clearance::Center::unknown;
 }
 
@@ -58,8 +57,7 @@ std::vector<CoordinateValue> coordinate_values(const System& system, const Box& 
   for (int j = 0; j < system.configuration_size; ++j) {
     const auto side = [&](int v) { return box[v]; };
     const Variable& v = system.variables[j];
-    const auto angle = std::find_if(system.angles.begin(), system.angles.end(),
-                                    [j](const Angle& a) { return a.cosine == j || a.sine == j; });
+    const auto angle = std::ranges::find_if(system.angles, [j](const Angle& a) { return a.cosine == j || a.sine == j; });
     if (angle == system.angles.end()) {
       if (!v.auxiliary) values.push_back({v.name, side(j)});
     } else if (angle->cosine == j) {

@@ -206,8 +206,8 @@ class Linker {
 Components components(const System& system, const Cover& cover, solve::Control& control) {
   Components result;
   if (cover.dimension == 0) {
-    result.at_least = static_cast<int>(
-        std::count_if(cover.points.begin(), cover.points.end(), [](const CoverBox& p) { return is_proven(p.verdict); }));
+    result.at_least =
+        static_cast<int>(std::ranges::count_if(cover.points, [](const CoverBox& p) { return is_proven(p.verdict); }));
     result.pieces = result.at_least;
     result.piece_of_box.assign(cover.boxes.size(), -1);
     if (std::cmp_equal(result.at_least, cover.points.size()) && cover.complete())

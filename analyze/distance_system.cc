@@ -26,12 +26,11 @@ Polynomial reduced(const Polynomial& f, const certify::Reduction& reduction) {
       value.monomials.emplace_back(1, std::vector<Factor>{});
     } else {
       const int v = m.factors[0].variable;
-      const auto kept = std::find(reduction.kept.begin(), reduction.kept.end(), v);
+      const auto kept = std::ranges::find(reduction.kept, v);
       if (kept != reduction.kept.end()) {
         value = variable(static_cast<int>(kept - reduction.kept.begin()));
       } else {
-        const auto by = std::find_if(reduction.definitions.begin(), reduction.definitions.end(),
-                                     [v](const auto& d) { return d.variable == v; });
+        const auto by = std::ranges::find_if(reduction.definitions, [v](const auto& d) { return d.variable == v; });
         CORANK_CHECK(by != reduction.definitions.end());
         value = by->value;
       }

@@ -12,7 +12,7 @@ namespace {
 std::optional<Polynomial> derivative(const Polynomial& f, int j) {
   Polynomial result;
   for (const Monomial& m : f.monomials) {
-    const auto factor = std::find_if(m.factors.begin(), m.factors.end(), [&](const Factor& x) { return x.variable == j; });
+    const auto factor = std::ranges::find_if(m.factors, [&](const Factor& x) { return x.variable == j; });
     if (factor == m.factors.end()) continue;
     if (factor->function != Function::identity) return std::nullopt;
     std::vector<Factor> factors = m.factors;

@@ -100,7 +100,7 @@ void ParameterMapper::Parts::make_family() {
   f.copies = copies;
   f.reduction = solve::reduce(system, solve::Eliminate::exact, {}, parameters);
   for (const int p : parameters) {
-    const auto kept = std::find(f.reduction.kept.begin(), f.reduction.kept.end(), p);
+    const auto kept = std::ranges::find(f.reduction.kept, p);
     CORANK_CHECK(kept != f.reduction.kept.end());
     f.parameters.push_back(static_cast<int>(kept - f.reduction.kept.begin()));
   }
@@ -308,12 +308,12 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
   for (int k = 0; k < ParameterMapper::tiles(); ++k)
     if (!there[k]) map.cells.push_back({p.sides_of(k)});
   const auto key = [](const Box& b) { return std::tuple(b[1].lo(), b[0].lo(), b[1].hi(), b[0].hi()); };
-  std::sort(map.cells.begin(), map.cells.end(), [&](const auto& a, const auto& b) { return key(a.sides) < key(b.sides); });
-  std::sort(map.boundary.begin(), map.boundary.end(), [&](const auto& a, const auto& b) {
+  std::ranges::sort(map.cells, [&](const auto& a, const auto& b) { return key(a.sides) < key(b.sides); });
+  std::ranges::sort(map.boundary, [&](const auto& a, const auto& b) {
     return std::tuple(key(a.sides), a.proven) < std::tuple(key(b.sides), b.proven);
   });
-  map.complete = std::none_of(map.cells.begin(), map.cells.end(),
-                              [](const MapCellAnswer& c) { return c.kind == MapCellAnswer::Kind::pending; });
+  map.complete =
+      std::ranges::none_of(map.cells, [](const MapCellAnswer& c) { return c.kind == MapCellAnswer::Kind::pending; });
   map.boundary_known = map.boundary_known && map.complete;
   if (p.options.certificate && p.family) {
     map.claims.emplace().reduction = p.family->reduction.steps;

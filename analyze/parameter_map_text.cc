@@ -55,13 +55,13 @@ std::string percent(double share) {
 
 std::string noun(const ParameterMap& map, int n) {
   std::string word = map.answer == MapAnswer::solutions ? "solutions" : to_string(map.answer);
-  std::replace(word.begin(), word.end(), '-', ' ');
+  std::ranges::replace(word, '-', ' ');
   if (n == 1) word.pop_back();
   return word;
 }
 
 std::size_t cells_of(const ParameterMap& map, MapCellAnswer::Kind kind) {
-  return std::count_if(map.cells.begin(), map.cells.end(), [&](const MapCellAnswer& c) { return c.kind == kind; });
+  return std::ranges::count_if(map.cells, [&](const MapCellAnswer& c) { return c.kind == kind; });
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ std::string to_table(const ParameterMap& map) {
                       map.complete ? "" : fmt::format(", {} pending", cells_of(map, MapCellAnswer::Kind::pending)),
                       map.processed);
   if (!sampled) {
-    const auto pieces = std::count_if(map.boundary.begin(), map.boundary.end(), [](const auto& b) { return b.proven; });
+    const auto pieces = std::ranges::count_if(map.boundary, [](const auto& b) { return b.proven; });
     text += fmt::format("  {:<22}{} boxes, {} of them hold a proven piece of the curve{}\n", "where solutions meet",
                         map.boundary.size(), pieces, map.boundary_known ? "" : "; there may be more");
   }

@@ -51,12 +51,10 @@ System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
   System system = space.system();
   for (const NamedValue& v : values) {
     const ExactNumber value = symbolic::exact_value(space.question().model, v.value, v.name);
-    const auto angle =
-        std::find_if(system.angles.begin(), system.angles.end(), [&](const Angle& a) { return a.name == v.name; });
+    const auto angle = std::ranges::find_if(system.angles, [&](const Angle& a) { return a.name == v.name; });
     const int length = system.find(v.name);
     if (angle != system.angles.end()) {
-      const auto circle = std::find_if(system.equations.begin(), system.equations.end(),
-                                       [&](const Polynomial& f) { return is_circle(f, *angle); });
+      const auto circle = std::ranges::find_if(system.equations, [&](const Polynomial& f) { return is_circle(f, *angle); });
       if (circle == system.equations.end())
         throw question_error(space.question(), "'" + v.name + "' has one value by its range", "no other");
       system.equations.erase(circle);
@@ -181,7 +179,7 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
     ends.signs = space_.signs(from);
     there = space_.signs(to);
   }
-  const auto known = [](const std::vector<int>& signs) { return std::find(signs.begin(), signs.end(), 0) == signs.end(); };
+  const auto known = [](const std::vector<int>& signs) { return std::ranges::find(signs, 0) == signs.end(); };
   const PathSpace::State goal = space_.state(ends.b);
   if (!known(ends.signs) || !known(there)) {
     path.reason = "an end is singular, or too near a singularity to be distinguished from one";
@@ -268,12 +266,12 @@ std::vector<Box> PathFinder::ends(const std::vector<NamedValue>& values, solve::
   if (cover.points.empty() && !cover.boxes.empty()) throw EndError("with these values the mechanism can still move");
   const auto is_far = [&](const Box& box) {
     const std::vector<CoordinateValue> there = coordinate_values(space.system(), box);
-    return std::any_of(further.begin(), further.end(), [&](const NamedValue& v) {
+    return std::ranges::any_of(further, [&](const NamedValue& v) {
       const double asked = symbolic::exact_value(space.question().model, v.value, v.name).enclose().mid();
-      const auto at = std::find_if(there.begin(), there.end(), [&](const CoordinateValue& c) { return c.name == v.name; });
+      const auto at = std::ranges::find_if(there, [&](const CoordinateValue& c) { return c.name == v.name; });
       if (at == there.end()) return false;
       const auto& angles = space.system().angles;
-      const bool angle = std::any_of(angles.begin(), angles.end(), [&](const Angle& a) { return a.name == v.name; });
+      const bool angle = std::ranges::any_of(angles, [&](const Angle& a) { return a.name == v.name; });
       double distance = at->value.mid() - asked;
       if (angle) distance = std::remainder(distance, 2 * std::numbers::pi);
       const int length = space.system().find(v.name);
@@ -325,8 +323,7 @@ std::vector<std::vector<double>> node_values(const System& system, const Tube& t
     std::vector<double> row;
     for (const CoordinateValue& v : coordinate_values(system, node.box)) {
       double value = v.value.mid();
-      const bool angle =
-          std::any_of(system.angles.begin(), system.angles.end(), [&](const Angle& a) { return a.name == v.name; });
+      const bool angle = std::ranges::any_of(system.angles, [&](const Angle& a) { return a.name == v.name; });
       if (angle && !result.empty())
         value = result.back()[row.size()] + std::remainder(value - result.back()[row.size()], 2 * std::numbers::pi);
       names.push_back(v.name);

@@ -110,7 +110,7 @@ bool PathGraph::apart(const Box& from, const Box& to, const std::vector<int>& si
     return found;
   };
   const std::set<std::size_t> a = groups_of(from), b = groups_of(to);
-  return std::none_of(a.begin(), a.end(), [&](std::size_t g) { return b.contains(g); });
+  return std::ranges::none_of(a, [&](std::size_t g) { return b.contains(g); });
 }
 
 void PathGraph::prepare_points(const std::vector<int>& signs) {
@@ -188,12 +188,12 @@ std::optional<TubeBuilder::Points> PathGraph::way(const PathSpace::Point& from, 
         graph, starts.front(),
         boost::predecessor_map(boost::make_iterator_property_map(before.begin(), boost::get(boost::vertex_index, graph)))
             .distance_map(boost::make_iterator_property_map(distance.begin(), boost::get(boost::vertex_index, graph))));
-    const std::size_t goal = *std::min_element(goals.begin(), goals.end(),
-                                               [&](std::size_t a, std::size_t b) { return distance[a] < distance[b]; });
+    const std::size_t goal =
+        *std::ranges::min_element(goals, [&](std::size_t a, std::size_t b) { return distance[a] < distance[b]; });
     if (goal != starts.front() && before[goal] == goal) return std::nullopt;
     last_way_.assign(1, goal);
     while (last_way_.back() != starts.front()) last_way_.push_back(before[last_way_.back()]);
-    std::reverse(last_way_.begin(), last_way_.end());
+    std::ranges::reverse(last_way_);
     bool whole = true;
     for (std::size_t v = 0; v + 1 < last_way_.size(); ++v) {
       const auto pair = std::minmax(last_way_[v], last_way_[v + 1]);

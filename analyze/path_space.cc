@@ -18,8 +18,8 @@ namespace {
 bool is_small(const PolynomialMatrix& m) {
   constexpr int kMostColumns = 8;
   constexpr std::size_t kMostTerms = 8;  // of an entry
-  return m.columns <= kMostColumns && std::all_of(m.entries.begin(), m.entries.end(),
-                                                  [](const Polynomial& f) { return f.monomials.size() <= kMostTerms; });
+  return m.columns <= kMostColumns &&
+         std::ranges::all_of(m.entries, [](const Polynomial& f) { return f.monomials.size() <= kMostTerms; });
 }
 
 bool is_square(const std::vector<int>& rows, const PolynomialMatrix& m) {

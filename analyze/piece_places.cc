@@ -36,7 +36,7 @@ class Places {
 
   bool is_over_middle(std::size_t c, const Box& box) const {
     const SignCell& cell = cells_.cells()[c];
-    return std::all_of(cell.free.begin(), cell.free.end(), [&](int j) { return cell.sides[j].contains(box[j].mid()); });
+    return std::ranges::all_of(cell.free, [&](int j) { return cell.sides[j].contains(box[j].mid()); });
   }
 
   // Of the solutions over the middle's free values the one that is nearest to it.

@@ -84,7 +84,7 @@ class PieceCounter {
   void join_at(const Box& point, const std::vector<int>& held) {
     constexpr double kRounding = 1e-9;
     const Signs signs = cells_.signs(point);
-    if (std::find(signs.begin(), signs.end(), 0) != signs.end()) return;
+    if (std::ranges::find(signs, 0) != signs.end()) return;
     std::optional<std::size_t> first;
     std::vector<std::size_t> near;
     Box around = point;
@@ -217,8 +217,7 @@ class PieceCounter {
       const SignCell &a = cell_of(p), &b = cell_of(q);
       if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected || a.box != b.box) return;
       if (!a.mixed.empty() && !b.mixed.empty()) return;
-      if (std::all_of(a.free.begin(), a.free.end(), [&](int f) { return a.sides[f].overlaps(b.sides[f]); }))
-        known.union_set(p, q);
+      if (std::ranges::all_of(a.free, [&](int f) { return a.sides[f].overlaps(b.sides[f]); })) known.union_set(p, q);
     });
     for (const Joined& joined : joined_) {
       if (known.find_set(joined.part) == known.find_set(joined.other)) continue;
@@ -244,8 +243,7 @@ class PieceCounter {
 
   void upper_bound(Pieces& result) {
     bool hidden = control_.ended();
-    const auto unresolved =
-        std::count_if(cells_.cells().begin(), cells_.cells().end(), [](const SignCell& cell) { return !cell.resolved; });
+    const auto unresolved = std::ranges::count_if(cells_.cells(), [](const SignCell& cell) { return !cell.resolved; });
     if (unresolved > 0) {
       result.reason = std::to_string(unresolved) + " cells next to singularities that are not resolved";
       return;

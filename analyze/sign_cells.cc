@@ -105,7 +105,7 @@ Box SignCells::solution_over_middle(const SignCell& cell, const Box& box) {
 }
 
 bool SignCells::is_outside(const SignCell& cell) const {
-  return std::any_of(cell.mixed.begin(), cell.mixed.end(), [&](int k) { return is_limit(k) && cell.range[k].hi() <= 0; }) ||
+  return std::ranges::any_of(cell.mixed, [&](int k) { return is_limit(k) && cell.range[k].hi() <= 0; }) ||
          std::any_of(cell.range.end() - limits_, cell.range.end(), [](const Interval& g) { return g.hi() < 0; });
 }
 
@@ -172,14 +172,14 @@ bool SignCells::find_directions(SignCell& cell) {
     bit <<= 1;
   }
   if (cell.free.size() == 2 && cell.mixed.size() <= 2) add_convex_limits(cell, s);
-  return std::find(cell.directions.begin(), cell.directions.end(), 0U) == cell.directions.end();
+  return std::ranges::find(cell.directions, 0U) == cell.directions.end();
 }
 
 // Lemma 5, which holds for each choice of the other function's sign. A limit that grows in some direction and is alone
 // does not need it.
 void SignCells::add_convex_limits(SignCell& cell, const certify::SignCellTest::Slopes& slopes) {
   const auto grows = [&](std::size_t k) {
-    return std::any_of(slopes[k].begin(), slopes[k].end(), [](const Interval& by) { return sign_of(by) != 0; });
+    return std::ranges::any_of(slopes[k], [](const Interval& by) { return sign_of(by) != 0; });
   };
   std::optional<std::vector<certify::SheetDerivatives>> mixed;
   const auto add = [&](std::uint64_t bit) {
@@ -245,7 +245,7 @@ std::optional<std::vector<SignCell>> SignCells::halves(const SignCell& cell) {
 bool SignCells::has_known_parts(SignCell& cell) {
   if (!cell.known_parts) {
     const std::vector<std::vector<int>> all = choices(cell);
-    cell.known_parts = !all.empty() && std::all_of(all.begin(), all.end(), [&](const std::vector<int>& signs) {
+    cell.known_parts = !all.empty() && std::ranges::all_of(all, [&](const std::vector<int>& signs) {
       return part_by_outflow(cell, signs) != 0;
     });
   }
@@ -266,7 +266,7 @@ std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
   for (const auto& [number, list] : members) {
     std::array<std::uint64_t, 4> common{};
     for (std::size_t k = 0; k < common.size(); ++k) common[k] = common_directions(list, [&](std::size_t) { return k; });
-    if (list.size() > 1 && std::find(common.begin(), common.end(), 0U) != common.end()) result.push_back(list);
+    if (list.size() > 1 && std::ranges::find(common, 0U) != common.end()) result.push_back(list);
   }
   return result;
 }
@@ -324,11 +324,11 @@ void SignCells::refine(int halvings, int rounds, solve::Control& control) {
       if (auto cell = sheet_over(group)) waiting.push_back({std::move(*cell), halvings / 2});
     }
     if (touching.empty()) return;
-    std::sort(touching.begin(), touching.end());
+    std::ranges::sort(touching);
     boxes_ = box_tree(cover_.boxes, &CoverBox::box);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       std::optional<std::vector<SignCell>> parts;
-      const bool asked = std::binary_search(touching.begin(), touching.end(), c);
+      const bool asked = std::ranges::binary_search(touching, c);
       if (asked && is_covered_before(cells_[c])) continue;
       if (asked) parts = halves(cells_[c]);
       if (!parts) done.push_back(std::move(cells_[c]));

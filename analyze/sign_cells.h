@@ -20,7 +20,7 @@ inline bool is_sheet(const CoverBox& b) { return b.verdict == Verdict::regular |
 
 /// Of these variables alone: each side of `inner` is in that of `outer`.
 inline bool contains_over(const std::vector<int>& variables, const Box& outer, const Box& inner) {
-  return std::all_of(variables.begin(), variables.end(), [&](int j) { return outer[j].contains(inner[j]); });
+  return std::ranges::all_of(variables, [&](int j) { return outer[j].contains(inner[j]); });
 }
 
 /// The free sides are X_F.

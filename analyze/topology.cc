@@ -182,7 +182,7 @@ void find_shape(const study::Question& question, const Solved& space, const Topo
   } else if (const auto& euler = result.heights.front().euler_of_piece;
              static_cast<int>(euler.size()) == components.at_least) {
     for (const int chi : euler) result.genus.push_back(1 - chi / 2);
-    std::sort(result.genus.begin(), result.genus.end());
+    std::ranges::sort(result.genus);
   } else {
     result.reason = "a critical point on no known component";
   }
@@ -207,7 +207,7 @@ Components components_within(const System& system, const Cover& cover, const std
   for (const Limit& end : ends) functions.push_back(end.function);
   const System whole = with_single_values(system);
   Components result;
-  if (!is_square_over(whole, cover.dimension) || !std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet)) {
+  if (!is_square_over(whole, cover.dimension) || !std::ranges::all_of(cover.boxes, is_sheet)) {
     result.reason = "boxes that are neither regular nor at an end";
     return result;
   }

@@ -93,15 +93,14 @@ class EdgePieces {
     const solve::Options search{.sigma = solve::uncut_sigma(system_), .threads = options.threads};
     const Cover cover = solve::solve(solve::prepare(strata.edge(end), search, control), control);
     processed += cover.statistics.processed;
-    if (!cover.complete() || (!cover.boxes.empty() && cover.dimension != 1) ||
-        !std::all_of(cover.boxes.begin(), cover.boxes.end(), is_sheet))
+    if (!cover.complete() || (!cover.boxes.empty() && cover.dimension != 1) || !std::ranges::all_of(cover.boxes, is_sheet))
       return;
     std::vector<Polynomial> functions;
     for (int k = 0; k < static_cast<int>(ends.size()); ++k)
       if (k != end) others_.push_back(k), functions.push_back(ends[k].function);
     // Beyond whatever end this cover's boxes touch a `boundary` box's sheet may go on.
     for (Limit& limit : limits(strata.edge(end), cover))
-      if (std::none_of(functions.begin(), functions.end(), [&](const Polynomial& f) { return same(f, limit.function); }))
+      if (std::ranges::none_of(functions, [&](const Polynomial& f) { return same(f, limit.function); }))
         functions.push_back(std::move(limit.function));
     if (cover.boxes.empty()) {
       count_ = 0;
@@ -120,7 +119,7 @@ class EdgePieces {
   std::optional<int> piece_at(const Box& corner, int other) {
     if (!cells_) return std::nullopt;
     const UpwardRounding rounding;
-    const auto place = std::find(others_.begin(), others_.end(), other) - others_.begin();
+    const auto place = std::ranges::find(others_, other) - others_.begin();
     for (const Pieces::Part& part : pieces_.parts) {
       const SignCell& cell = cells_->cells()[part.cell];
       if (cell.mixed != std::vector<int>{static_cast<int>(place)}) continue;
@@ -182,7 +181,7 @@ std::string problem_of_points(const Cover& cover) {
   const auto is_point = [](const CoverBox& b) {
     return b.motion < 0 && b.free.empty() && b.reason != Reason::degenerate_set;
   };
-  const bool points = cover.dimension == 0 && std::all_of(cover.boxes.begin(), cover.boxes.end(), is_point);
+  const bool points = cover.dimension == 0 && std::ranges::all_of(cover.boxes, is_point);
   return points ? "" : "critical points that are not isolated";
 }
 

@@ -72,7 +72,7 @@ class Measure {
     for (Box& box : cell.left)
       if (box[x_].intersect(cell.x) && box[y_].intersect(cell.y) && contract(box)) open.push_back(std::move(box));
     for (int k = 0; k < kSplits && !open.empty(); ++k) {
-      const auto largest = std::max_element(open.begin(), open.end(), [this](const Box& a, const Box& b) {
+      const auto largest = std::ranges::max_element(open, [this](const Box& a, const Box& b) {
         return a[widest(a)].width() / widths_[widest(a)] < b[widest(b)].width() / widths_[widest(b)];
       });
       const int v = widest(*largest);
@@ -117,10 +117,10 @@ class Measure {
   bool contract(Box& box) {
     std::vector<std::uint8_t> changed(n_);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      std::fill(changed.begin(), changed.end(), std::uint8_t{0});
+      std::ranges::fill(changed, std::uint8_t{0});
       for (int row = 0; row < compiled_.rows(); ++row)
         if (!certify::project(compiled_, row, box, 0.1, changed.data())) return false;
-      if (std::find(changed.begin(), changed.end(), 1) == changed.end()) break;
+      if (std::ranges::find(changed, 1) == changed.end()) break;
     }
     std::vector<double> middle = midpoint(box);
     const std::optional<Preconditioner> p = preconditioner(middle, true);

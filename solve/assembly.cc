@@ -205,11 +205,11 @@ class Merger {
     if (cells_.size() < 2) return;
     choose_axes();
     for (Cell& cell : cells_) cell.key = key_of(cell.index, 0, 0);
-    std::sort(cells_.begin(), cells_.end(),
-              [](const Cell& a, const Cell& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+    std::ranges::sort(cells_,
+                      [](const Cell& a, const Cell& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
     std::vector<std::size_t> order;
     for (const Cell& cell : cells_) order.push_back(cell.index);
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     for (std::size_t i : order)
       while (!removed_[i] && grow(i)) {
       }
@@ -237,9 +237,9 @@ class Merger {
       }
       spread[j] = (greatest - least) / problem_.sigma[j];
     }
-    axes_[0] = std::max_element(spread.begin(), spread.end()) - spread.begin();
+    axes_[0] = std::ranges::max_element(spread) - spread.begin();
     spread[axes_[0]] = -1;
-    axes_[1] = std::max_element(spread.begin(), spread.end()) - spread.begin();
+    axes_[1] = std::ranges::max_element(spread) - spread.begin();
   }
 
   // Boxes in one box of size σ have lower ends at most σ apart.
@@ -362,7 +362,7 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
     cover.proof = std::make_shared<const Proof>(
         Proof{{reduction.system.domain()}, {}, {static_cast<std::uint8_t>(Proof::Step::elsewhere)}, {}, {}});
   cover.self_motions = motions.records(reduction);
-  if (std::any_of(found.begin(), found.end(), [](const Found* f) { return f->box.reason == Reason::degenerate_set; }))
+  if (std::ranges::any_of(found, [](const Found* f) { return f->box.reason == Reason::degenerate_set; }))
     cover.observed_dimension = motions.observed_dimension();
   for (CoverBox& point : cover.points) point = lifted(prepared.system, reduction, std::move(point));
   std::vector<FoundList*> lists;

@@ -45,7 +45,7 @@ constexpr int kSmall = 12;       // rows of L
 bool is_its_point(const CoverBox& box, const Cover& cover) {
   if (box.point < 0 || (box.verdict != Verdict::exact && box.verdict != Verdict::isolated)) return false;
   const auto& coordinates = cover.exact_points[box.point].coordinates;
-  return std::none_of(coordinates.begin(), coordinates.end(), [](const RationalPolynomial& x) { return x.empty(); });
+  return std::ranges::none_of(coordinates, [](const RationalPolynomial& x) { return x.empty(); });
 }
 
 // Of each of Cover::regions the hull of the boxes that were cut from it, where there are two or more, else an empty box:
@@ -128,8 +128,7 @@ void keep_only(SingularityType type, Cover& cover) {
   if (cover.types.left_out == 0) return;
   std::erase_if(cover.points, [&](const CoverBox& point) {  // clusters of which no box is left
     return point.verdict == Verdict::undecided &&
-           std::none_of(cover.boxes.begin(), cover.boxes.end(),
-                        [&](const CoverBox& box) { return contains(point.box, box.box); });
+           std::ranges::none_of(cover.boxes, [&](const CoverBox& box) { return contains(point.box, box.box); });
   });
   cover.proof.reset();
   std::vector<int> place(cover.regions.size(), -1);

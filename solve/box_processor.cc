@@ -23,7 +23,7 @@ certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
     return {};
   }
   std::vector<int> pivots = preconditioners_.last().dependent;
-  std::sort(pivots.begin(), pivots.end());
+  std::ranges::sort(pivots);
   dependent_ = preconditioners_.chart_of_last(problem_.compiled.scales(), kChartGain);
   const auto& p = pivots == dependent_ ? preconditioners_.last() : preconditioners_.at_midpoint(x, &dependent_);
   if (p.rank() < problem_.compiled.equations()) return {};

@@ -64,8 +64,8 @@ BranchingRule::BranchingRule(const System& system, double kernel_weight, int ker
     : weight_(system.variables.size(), 1.0), patience_(system.variables.size(), 1.0) {
   const auto defined = linearly_defined(system);
   const auto is_kernel = [](const Variable& v) { return v.kind == VariableKind::kernel; };
-  const bool late = kernel_vectors == 1 && system.dimension() <= 1 &&
-                    std::count_if(system.variables.begin(), system.variables.end(), is_kernel) >= kManyUnknowns;
+  const bool late =
+      kernel_vectors == 1 && system.dimension() <= 1 && std::ranges::count_if(system.variables, is_kernel) >= kManyUnknowns;
   for (std::size_t j = 0; j < weight_.size(); ++j) {
     if (is_kernel(system.variables[j])) {
       weight_[j] = late ? kLateWeight * kernel_weight : kernel_weight;
@@ -75,8 +75,7 @@ BranchingRule::BranchingRule(const System& system, double kernel_weight, int ker
   }
   for (const Polynomial& f : system.equations)
     if (const int j = only_variable(f); j >= 0) weight_[j] = kAloneWeight;
-  if (std::all_of(weight_.begin(), weight_.end(), [](double w) { return w == 0; }))
-    std::fill(weight_.begin(), weight_.end(), 1.0);
+  if (std::ranges::all_of(weight_, [](double w) { return w == 0; })) std::ranges::fill(weight_, 1.0);
 }
 
 std::optional<double> split_point(const Interval& side) {
@@ -109,7 +108,7 @@ int BranchingRule::choose(const certify::CompiledSystem& system, std::span<const
   const std::vector<double> smears = smear(system, x);
   std::vector<double> of_step(weight_.size(), 0.0);
   if (step) step->add_smears(x, of_step);
-  const bool has_step = std::any_of(of_step.begin(), of_step.end(), [](double t) { return t > 0; });
+  const bool has_step = std::ranges::any_of(of_step, [](double t) { return t > 0; });
   int best = -1, widest = -1;
   double best_score = 0, widest_width = 0;
   for (std::size_t j = 0; j < weight_.size(); ++j) {

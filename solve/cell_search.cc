@@ -102,7 +102,7 @@ bool CellSearch::refine(ParameterCell& cell, double share, std::uint64_t most, C
       case Outcome::empty: continue;
       case Outcome::proven: {
         // Its zeros are those of a known sheet where both are one: boxes that overlap find the same.
-        const bool is_new = std::none_of(cell.sheets.begin(), cell.sheets.end(), [&](const certify::Sheet& known) {
+        const bool is_new = std::ranges::none_of(cell.sheets, [&](const certify::Sheet& known) {
           return certify::compare_over(problem_.compiled, known, *sheet, workspace_) == certify::Identity::same;
         });
         if (is_new) cell.sheets.push_back(std::move(*sheet));

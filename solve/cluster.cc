@@ -248,7 +248,7 @@ std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t
     wanted = spread ? 1 : s.under_way.empty() ? std::min(wanted, s.open.size()) : std::min(wanted, full);
     if (wanted == 0 || s.open.empty()) return units;
     // The largest first: who waits for work gets most of it.
-    std::stable_sort(s.open.begin(), s.open.end(), [](const Waiting& a, const Waiting& b) { return a.share > b.share; });
+    std::ranges::stable_sort(s.open, [](const Waiting& a, const Waiting& b) { return a.share > b.share; });
     std::vector<std::vector<Waiting>> hands = dealt(std::exchange(s.open, {}), wanted);
     for (std::size_t i = 0; i < hands.size(); ++i) {
       const std::uint64_t most = left / (hands.size() - i);

@@ -66,9 +66,8 @@ CorankSystem corank_system(const System& system, const PolynomialMatrix& matrix,
   };
   for (const Polynomial& f : system.equations) {
     Polynomial g{{}, f.source};
-    const bool of_configuration = std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
-      return std::all_of(m.factors.begin(), m.factors.end(),
-                         [&](const Factor& factor) { return index[factor.variable] >= 0; });
+    const bool of_configuration = std::ranges::all_of(f.monomials, [&](const Monomial& m) {
+      return std::ranges::all_of(m.factors, [&](const Factor& factor) { return index[factor.variable] >= 0; });
     });
     if (!of_configuration) continue;
     for (const Monomial& m : f.monomials) g.monomials.push_back(renamed(m));
@@ -77,7 +76,7 @@ CorankSystem corank_system(const System& system, const PolynomialMatrix& matrix,
   for (int v = 0; v < c; ++v) {
     std::vector<int> entry(k, -1);  // variable of ξ_j; −1: a pivot
     for (int j = 0; j < k; ++j) {
-      if (std::find(pivots.begin(), pivots.end(), j) != pivots.end()) continue;
+      if (std::ranges::find(pivots, j) != pivots.end()) continue;
       entry[j] = result.system.size();
       result.system.variables.emplace_back("xi" + std::to_string(v + 1) + "_" + std::to_string(j + 1), VariableKind::kernel,
                                            -1000, 1000);

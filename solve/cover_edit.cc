@@ -96,7 +96,7 @@ void CoverEdit::finish() {
     if (fate_[i] == kStays) order.push_back(static_cast<int>(i));
   std::vector<int> variables = reduction_.kept;
   for (const auto& definition : reduction_.definitions) variables.push_back(definition.variable);
-  std::sort(order.begin(), order.end(), [&](int i, int k) { return before(cover_.boxes[i], cover_.boxes[k], variables); });
+  std::ranges::sort(order, [&](int i, int k) { return before(cover_.boxes[i], cover_.boxes[k], variables); });
   std::vector<int> place(cover_.boxes.size(), -1);
   std::vector<CoverBox> boxes;
   for (const int i : order) {

@@ -100,8 +100,7 @@ std::vector<int> steady_rows(const certify::CompiledSystem& system, const Box& x
 // Does no relation exclude the box?
 bool may_hold_in(const certify::SelfMotion& motion, const Box& x) {
   const UpwardRounding rounding;
-  return std::all_of(motion.relations.begin(), motion.relations.end(),
-                     [&](const Polynomial& f) { return certify::evaluate(f, x).contains(0.0); });
+  return std::ranges::all_of(motion.relations, [&](const Polynomial& f) { return certify::evaluate(f, x).contains(0.0); });
 }
 
 }  // namespace
@@ -151,9 +150,8 @@ void SelfMotions::prove_cluster(const Problem& problem, const System& system, st
     const int expected = std::max(0, problem.compiled.variables() - problem.compiled.equations());
     if (candidate.dimension > expected) observed_ = std::max(observed_, candidate.dimension);
     if (!candidate.motion) continue;
-    const auto same = std::find_if(known_.begin(), known_.end(), [&](const Known& other) {
-      return certify::same_relations(other.motion, *candidate.motion);
-    });
+    const auto same = std::ranges::find_if(
+        known_, [&](const Known& other) { return certify::same_relations(other.motion, *candidate.motion); });
     const std::size_t index = same - known_.begin();
     if (same == known_.end()) {
       known_.push_back({std::move(*candidate.motion), candidate.dimension});
@@ -177,17 +175,16 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
       reason = Reason::none;
       const bool along = is_along_a_set(problem, boxes, cluster, share);
       if (along) prove_cluster(problem, system, boxes, cluster, share);
-      const auto open = static_cast<std::size_t>(
-          std::count_if(cluster.begin(), cluster.end(), [&](std::size_t i) { return !boxes[i].proof.proven; }));
+      const auto open =
+          static_cast<std::size_t>(std::ranges::count_if(cluster, [&](std::size_t i) { return !boxes[i].proof.proven; }));
       // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around
       // a few places may be divided on.
       const std::size_t many =
           along ? kManyAlongASet : std::max(kTooManyBoxes, former > 0 ? kGrowth * former : boxes.size());
       // Around a surface these places are curves, where each size has twice as many boxes, and the surface is proven in four
       // times as many.
-      const bool surface = std::any_of(cluster.begin(), cluster.end(), [&](std::size_t i) {
-        return boxes[i].proof.proven && known_[boxes[i].proof.motion].dimension > 1;
-      });
+      const bool surface = std::ranges::any_of(
+          cluster, [&](std::size_t i) { return boxes[i].proof.proven && known_[boxes[i].proof.motion].dimension > 1; });
       if (share < (along ? kSetShare : last) || (open > many && (surface || 2 * open > cluster.size())))
         reason = Reason::degenerate_set;
     }

@@ -146,7 +146,7 @@ Polynomial reduced(Polynomial h, const certify::Reduction& reduction) {
       const int kept = place[x.variable];
       x.variable = kept >= 0 ? kept : beyond + x.variable;
     }
-    std::sort(m.factors.begin(), m.factors.end(), [](const Factor& a, const Factor& b) { return a.variable < b.variable; });
+    std::ranges::sort(m.factors, [](const Factor& a, const Factor& b) { return a.variable < b.variable; });
   }
   for (const auto& definition : reduction.definitions)
     h = certify::substitute(h, beyond + definition.variable, definition.value);
@@ -214,8 +214,7 @@ void drop_lone(std::vector<Multiple>& multiples, int of_degree, const Row& targe
         if (degree(p) >= of_degree) ++uses[p];
     for (const auto& [p, c] : target) ++uses[p];
     std::erase_if(multiples, [&](const Multiple& m) {
-      return std::any_of(m.row.begin(), m.row.end(),
-                         [&](const auto& t) { return degree(t.first) >= of_degree && uses[t.first] == 1; });
+      return std::ranges::any_of(m.row, [&](const auto& t) { return degree(t.first) >= of_degree && uses[t.first] == 1; });
     });
   }
 }
@@ -230,12 +229,11 @@ std::vector<std::size_t> add_implied_equations(const std::vector<Polynomial>& cl
     certify::add_implied(reduction, found[k], "implied equation " + std::to_string(k + 1));
   for (std::size_t k = 0; k < claimed.size(); ++k) {
     const Polynomial& claim = claimed[k];
-    const bool is_polynomial =
-        std::none_of(claim.monomials.begin(), claim.monomials.end(), [](const Monomial& m) { return m.is_trigonometric(); });
+    const bool is_polynomial = std::ranges::none_of(claim.monomials, [](const Monomial& m) { return m.is_trigonometric(); });
     const Polynomial h = is_polynomial ? reduced(claim, reduction) : claim;
     const auto is_known = [&](const Polynomial& f) { return certify::proportional(f, h).has_value(); };
-    if (h.monomials.empty() || std::any_of(reduction.system.equations.begin(), reduction.system.equations.end(), is_known) ||
-        std::any_of(reduction.system.implied.begin(), reduction.system.implied.end(), is_known))
+    if (h.monomials.empty() || std::ranges::any_of(reduction.system.equations, is_known) ||
+        std::ranges::any_of(reduction.system.implied, is_known))
       continue;
     if (const auto of = express_by_equations(h, reduction.system, ended)) {
       certify::add_implied(reduction, *of, claim.source);

@@ -104,7 +104,7 @@ class Estimator {
       const auto keep = static_cast<std::size_t>(std::clamp<double>(most, kFewest, kMost));
       if (level.size() > keep) {
         weight *= static_cast<double>(level.size()) / static_cast<double>(keep);
-        std::shuffle(level.begin(), level.end(), random_);
+        std::ranges::shuffle(level, random_);
         level.resize(keep);
         trial.whole = false;
       }
@@ -187,7 +187,7 @@ class Estimator {
     const double scale = std::pow(coarser, dimension);
     Shard shard(1, false);
     BoxProcessor processor(problem_, shard);
-    std::shuffle(sheets_.begin(), sheets_.end(), random_);
+    std::ranges::shuffle(sheets_, random_);
     const double begun = cpu_seconds();
     double size = 0, pieces = 0, spent = 0, squares = 0;
     std::size_t cut = 0;

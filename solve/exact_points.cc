@@ -39,7 +39,7 @@ int ExactPoints::add(ExactPoint point) {
     point.sole_within = p.sole_within;
     return p == point;
   };
-  const auto known = std::find_if(points_.begin(), points_.end(), same);
+  const auto known = std::ranges::find_if(points_, same);
   point.sole_within = 0;
   if (known != points_.end()) return static_cast<int>(known - points_.begin());
   points_.push_back(std::move(point));

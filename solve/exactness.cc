@@ -109,7 +109,7 @@ class Prover {
       if (point.verdict != Verdict::undecided || point.point >= 0) continue;
       const std::optional<int> exact = exact_.with_kernel(matrix, point.box, system_.kernel_vectors);
       futile = exact ? 0 : futile + 1;
-      if (exact && std::find(found.begin(), found.end(), *exact) == found.end()) found.push_back(*exact);
+      if (exact && std::ranges::find(found, *exact) == found.end()) found.push_back(*exact);
     }
     for (const int index : found) {
       const certify::PointLocation place(cover_.exact_points[index]);
@@ -126,7 +126,7 @@ class Prover {
     const auto same = [&](const CoverBox& b) {  // known as an isolated one, or from the cluster next to this
       return (b.verdict == Verdict::isolated || b.verdict == Verdict::exact) && b.point == *exact;
     };
-    const auto known = std::find_if(cover_.boxes.begin(), cover_.boxes.end(), same);
+    const auto known = std::ranges::find_if(cover_.boxes, same);
     const bool is_known = known != cover_.boxes.end();
     const int by = static_cast<int>(known - cover_.boxes.begin());
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i)

@@ -23,8 +23,8 @@ struct Heuristics {
 /// have fewer, larger boxes, but aspects are told from these; each division of a surface of singularities makes many boxes.
 inline Heuristics heuristics_for(const System& system, bool tolerant) {
   const std::size_t dimension = system.variables.size() - std::min(system.variables.size(), system.equations.size());
-  const bool singular = std::any_of(system.variables.begin(), system.variables.end(),
-                                    [](const Variable& v) { return v.kind == VariableKind::kernel; });
+  const bool singular =
+      std::ranges::any_of(system.variables, [](const Variable& v) { return v.kind == VariableKind::kernel; });
   if (dimension == 0) return tolerant || singular ? Heuristics{} : Heuristics{.gain = 0.07, .repeats = 8};
   if (!singular) return {};
   if (dimension == 1) return {.gain = 0.1};
@@ -44,14 +44,14 @@ inline constexpr double kNoise = 0.5, kRegularNoise = 8, kNarrow = 1e-3;
 /// Pivots below this share of a row's largest entry count as zero, each times its variable's scale; near a solution of
 /// redundant equations; where their coefficients are rounded.
 inline constexpr double kRankTolerance = 1e-9, kRedundantRankTolerance = 1e-7, kRoundedRankTolerance = 1e-4;
-inline constexpr int kGaussNewtonSteps = 8;   ///< to where the rank of redundant equations shows
-inline constexpr double kChartGain = 1.05;    ///< of a proof's volume: an exchange of free variables costs an elimination
+inline constexpr int kGaussNewtonSteps = 8;  ///< to where the rank of redundant equations shows
+inline constexpr double kChartGain = 1.05;   ///< of a proof's volume: an exchange of free variables costs an elimination
 inline constexpr int kMostExchanges = 16;
 
 // Bisection (branching.h)
 /// Off-centre, because mechanisms put solutions on planes of symmetry, and a face through a solution doubles its boxes.
 inline constexpr double kBisectionPoint = 0.47;
-inline constexpr double kLeastSmear = 1e-6;  ///< a variable that no equation holds has its turn, too
+inline constexpr double kLeastSmear = 1e-6;   ///< a variable that no equation holds has its turn, too
 inline constexpr double kAloneWeight = 1000;  ///< of a variable with an equation of its own: before all others *
 /// So many unknowns of a kernel vector wait for the configuration. *
 inline constexpr int kManyUnknowns = 6;
@@ -63,7 +63,7 @@ inline constexpr double kFirstShare = 1.0 / 20, kNextShare = 1.0 / 4;
 inline constexpr double kOpenShare = 1.0 / 8;  ///< of that size: how much smaller other unproven boxes get
 inline constexpr double kRankShare = 1;  ///< of a box's size: singular values below make its solution count as degenerate
 inline constexpr double kReach = 8;      ///< of a box's size: how far from it a degenerate solution is looked for
-inline constexpr double kTiny = 1e-6;    ///< what is regular and yet not proven in such a box is next to a degenerate solution
+inline constexpr double kTiny = 1e-6;  ///< what is regular and yet not proven in such a box is next to a degenerate solution
 inline constexpr double kFinestShare = 1e-13;  ///< doubles resolve little more
 inline constexpr double kNoisySize = 2e-3;     ///< in larger boxes it is the choice of Y that makes noise
 inline constexpr double kPartialShare = 0.05;  ///< as wide as a box is that nobody says a σ of
@@ -73,25 +73,25 @@ inline constexpr double kStill = 1e-11;        ///< a shorter step is none
 
 // Sets of degenerate solutions (degeneracy.h); sizes of boxes
 inline constexpr double kPointShare = 1e-7, kOtherShare = 1.0 / 400;  ///< the last of the sizes
-inline constexpr double kSetShare = 1.0 / 60;    ///< the last along a set of degenerate solutions
-inline constexpr double kIsolatedHull = 8;       ///< in box sizes: boxes around one point hardly reach farther
-inline constexpr double kWideExtent = 0.25;      ///< reaches no cluster around one point
-inline constexpr std::size_t kProbes = 8;        ///< of a cluster
-inline constexpr int kDirections = 3;            ///< of a probe
-inline constexpr double kProbeStep = 0.5;        ///< in box sizes of the first level
-inline constexpr double kCloseShare = 1e-4;      ///< so near is every equation's zero to what may be a solution
+inline constexpr double kSetShare = 1.0 / 60;                         ///< the last along a set of degenerate solutions
+inline constexpr double kIsolatedHull = 8;          ///< in box sizes: boxes around one point hardly reach farther
+inline constexpr double kWideExtent = 0.25;         ///< reaches no cluster around one point
+inline constexpr std::size_t kProbes = 8;           ///< of a cluster
+inline constexpr int kDirections = 3;               ///< of a probe
+inline constexpr double kProbeStep = 0.5;           ///< in box sizes of the first level
+inline constexpr double kCloseShare = 1e-4;         ///< so near is every equation's zero to what may be a solution
 inline constexpr double kSolutionTolerance = 1e-6;  ///< of singular values, at the solutions themselves
 inline constexpr double kDoublesEnd = 1e-11;
 inline constexpr double kMotionRankTolerance = 1e-6;
-inline constexpr int kMotionAttempts = 4;              ///< in a cluster, without success
-inline constexpr std::size_t kManyAlongASet = 400;     ///< dividing them makes too many
+inline constexpr int kMotionAttempts = 4;           ///< in a cluster, without success
+inline constexpr std::size_t kManyAlongASet = 400;  ///< dividing them makes too many
 /// Whatever they are along, if they have become so many times more since boxes were four times as large: around points their
 /// number hardly grows, along a curve by four.
 inline constexpr std::size_t kTooManyBoxes = 30'000, kGrowth = 2;
 
 // Samples of a self-motion (self_motion_search.h). Doubles find solutions at which the rank drops to a few digits only. What
 // is read off is verified exactly: it may be wrong.
-inline constexpr double kSampleTolerance = 1e-7;  ///< of singular values
+inline constexpr double kSampleTolerance = 1e-7;                ///< of singular values
 inline constexpr double kSampleStep = 0.15, kShortStep = 0.03;  ///< between samples; for directions
 inline constexpr int kSampleBits = 128;                         ///< of the arithmetic that makes samples precise
 inline constexpr double kNullTolerance = 1e-10, kRelationTolerance = 1e-9;
@@ -119,7 +119,7 @@ inline constexpr int kMostSlabs = 3;                 ///< more parts than that: 
 inline constexpr int kMostPartsAtOnce = 81;          ///< of a piece with many free sides: the other sides wait
 
 // Cells of parameters (cell_search.h)
-inline constexpr double kFollow = 2.5;        ///< so many times as wide as solutions move a side is not worth bisecting
+inline constexpr double kFollow = 2.5;         ///< so many times as wide as solutions move a side is not worth bisecting
 inline constexpr double kLeastMovement = 0.5;  ///< of what moves most: what hardly moves is bisected in vain
 inline constexpr double kFinestCell = 1e-8;
 

@@ -32,7 +32,7 @@ std::vector<mp_limb_t> difference(const std::vector<mp_limb_t>& s, mp_limb_t q, 
 }
 
 void make_first_one(Sum& s) {
-  const auto first = std::find_if(s.terms.begin(), s.terms.end(), [](mp_limb_t c) { return c != 0; });
+  const auto first = std::ranges::find_if(s.terms, [](mp_limb_t c) { return c != 0; });
   if (first == s.terms.end()) return;
   const nmod_t mod = PrimeMatrix::field();
   const mp_limb_t inverse = nmod_inv(*first, mod);
@@ -62,7 +62,7 @@ class Finder {
   Finder(const System& system, const Ended& ended) : ended_(ended), given_(static_cast<int>(system.equations.size())) {
     for (std::size_t i = 0; i < system.equations.size(); ++i) {
       const Polynomial& f = system.equations[i];
-      if (f.degree() != 2 || !std::all_of(f.monomials.begin(), f.monomials.end(), is_small)) continue;
+      if (f.degree() != 2 || !std::ranges::all_of(f.monomials, is_small)) continue;
       if (auto row = row_of(f)) add(static_cast<int>(i), std::move(*row));
     }
   }

@@ -60,10 +60,10 @@ Work first_pass(const Prepared& prepared) {
 }
 
 Work next_pass(const Prepared& prepared, const Work& pass, std::vector<Postponed> all, Pool& pool, SelfMotions& motions) {
-  std::sort(all.begin(), all.end(), [](const Postponed& a, const Postponed& b) { return before(a.box.x, b.box.x); });
+  std::ranges::sort(all, [](const Postponed& a, const Postponed& b) { return before(a.box.x, b.box.x); });
   const UpwardRounding rounding;
   std::vector<Reason> reasons = motions.prove(pool.problem(), prepared.reduction.system, all, pass.postpone);
-  if (pool.ended()) std::replace(reasons.begin(), reasons.end(), Reason::none, Reason::limit);
+  if (pool.ended()) std::ranges::replace(reasons, Reason::none, Reason::limit);
   std::vector<Waiting> open;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].proof.proven) {
@@ -74,7 +74,7 @@ Work next_pass(const Prepared& prepared, const Work& pass, std::vector<Postponed
       pool.give_up(all[i], reasons[i]);
     }
   }
-  std::reverse(open.begin(), open.end());
+  std::ranges::reverse(open);
   return {std::move(open), kNextShare * pass.postpone};
 }
 

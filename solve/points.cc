@@ -58,7 +58,7 @@ void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
     }
     close.clear();
     tree.for_each_overlapping(found[proven[k]]->box.box, 0.0, [&](std::size_t j) { close.push_back(j); });
-    std::sort(close.begin(), close.end());
+    std::ranges::sort(close);
     for (const std::size_t j : close) compare(proven[k], j);
   }
   std::size_t kept = 0;

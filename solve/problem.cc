@@ -69,7 +69,7 @@ void Problem::append_values_at_zeros(const certify::NewtonStep& step, Box& sides
 std::vector<int> other_variables(const std::vector<int>& given, int variables) {
   std::vector<int> others;
   for (int j = 0; j < variables; ++j)
-    if (std::find(given.begin(), given.end(), j) == given.end()) others.push_back(j);
+    if (std::ranges::find(given, j) == given.end()) others.push_back(j);
   return others;
 }
 

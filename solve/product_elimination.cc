@@ -185,7 +185,7 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<Polynomial>& r
   };
   std::map<Factors, std::size_t> first;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool all_linear = std::all_of(rows[i].monomials.begin(), rows[i].monomials.end(), is_linear);
+    const bool all_linear = std::ranges::all_of(rows[i].monomials, is_linear);
     for (const Monomial& m : rows[i].monomials)
       if (is_linear(m) == all_linear && !m.factors.empty()) {
         const auto [known, is_new] = first.try_emplace(m.factors, i);

@@ -19,7 +19,7 @@ bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> 
   for (std::size_t head = 0; head < queue_.size() && head < limit; ++head) {
     const int row = queue_[head];
     pending_[row] = 0;
-    std::fill(changed_.begin(), changed_.end(), 0);
+    std::ranges::fill(changed_, 0);
     if (recorder) before_.assign(x.begin(), x.begin() + system.variables());
     const bool empty = !certify::project(system, row, x, kWorthwhileShare, changed_.data());
     if (recorder && (empty || !std::equal(before_.begin(), before_.end(), x.begin())))

@@ -89,7 +89,7 @@ void Recorder::row(int row) {
 }
 
 void Recorder::newton(const certify::Preconditioner& p, std::span<const Interval> x) {
-  if (p.rank() == 0 || !std::all_of(p.y.begin(), p.y.end(), fits_float)) return;
+  if (p.rank() == 0 || !std::ranges::all_of(p.y, fits_float)) return;
   keep(x);
   script_.integers.push_back(static_cast<std::int32_t>(script_.combinations.size()));
   script_.combinations.push_back({p.equations, p.dependent, {p.y.begin(), p.y.end()}});

@@ -44,7 +44,7 @@ std::optional<ExactNumber> simple_rational(double x, double tolerance) {
 // Exact arithmetic with such numbers takes minutes, and intervals of doubles gain nothing by it: more than 2,000 bits.
 bool has_long_number(const Polynomial& f) {
   constexpr std::size_t kMostBits = 2000;
-  return std::any_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+  return std::ranges::any_of(f.monomials, [](const Monomial& m) {
     const mpq_class& q = m.coefficient.node().value;
     return std::max(mpz_sizeinbase(q.get_num_mpz_t(), 2), mpz_sizeinbase(q.get_den_mpz_t(), 2)) > kMostBits;
   });
@@ -65,19 +65,18 @@ Shortening shortening(const Polynomial& f, const Polynomial& g) {
   std::vector<std::pair<const ExactNumber*, const ExactNumber*>> irrational;
   std::ptrdiff_t common = 0;
   for (const Monomial& b : g.monomials)
-    common += std::any_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) { return m.factors == b.factors; });
+    common += std::ranges::any_of(f.monomials, [&](const Monomial& m) { return m.factors == b.factors; });
   const auto added = static_cast<std::ptrdiff_t>(g.monomials.size()) - common;
   if (common <= added) return {};  // however many of them cancel
   for (const Monomial& b : g.monomials) {
-    const auto a =
-        std::find_if(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) { return m.factors == b.factors; });
+    const auto a = std::ranges::find_if(f.monomials, [&](const Monomial& m) { return m.factors == b.factors; });
     if (a == f.monomials.end()) continue;
     if (!a->coefficient.is_rational() || !b.coefficient.is_rational() || b.coefficient.is_zero()) {
       irrational.emplace_back(&a->coefficient, &b.coefficient);
       continue;
     }
     const ExactNumber q = -(a->coefficient / b.coefficient);
-    const auto same = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.factor == q; });
+    const auto same = std::ranges::find_if(candidates, [&](const Candidate& c) { return c.factor == q; });
     if (same == candidates.end()) {
       candidates.push_back({q, 1});
     } else {
@@ -87,7 +86,7 @@ Shortening shortening(const Polynomial& f, const Polynomial& g) {
   Shortening best;
   for (const Candidate& c : candidates) {
     const std::ptrdiff_t saved = c.cancelled + static_cast<std::ptrdiff_t>(irrational.size()) - added;
-    if (saved > best.saved && std::all_of(irrational.begin(), irrational.end(), [&](const auto& pair) {
+    if (saved > best.saved && std::ranges::all_of(irrational, [&](const auto& pair) {
           return certify::cancels(*pair.first, c.factor, *pair.second);
         }))
       best = {c.factor, saved};
@@ -171,7 +170,7 @@ bool Reducer::affordable(int variable, const Polynomial& value) const {
   double size = 1;
   for (const Monomial& m : value.monomials) degree = std::max(degree, m.degree()), size += m.enclosure.mag();
   const auto fits = [&](const Polynomial& f) {
-    return std::all_of(f.monomials.begin(), f.monomials.end(), [&](const Monomial& m) {
+    return std::ranges::all_of(f.monomials, [&](const Monomial& m) {
       for (const Factor& x : m.factors) {
         if (x.variable != variable || x.power == 1) continue;
         // value^p has at most C(p + t − 1, p) terms, t those of the value.
@@ -183,10 +182,9 @@ bool Reducer::affordable(int variable, const Polynomial& value) const {
       return true;
     });
   };
-  return std::all_of(rewriting_.system().equations.begin(), rewriting_.system().equations.end(), fits) &&
-         std::all_of(rewriting_.system().inequalities.begin(), rewriting_.system().inequalities.end(), fits) &&
-         std::all_of(rewriting_.definitions().begin(), rewriting_.definitions().end(),
-                     [&](const auto& d) { return fits(d.second); });
+  return std::ranges::all_of(rewriting_.system().equations, fits) &&
+         std::ranges::all_of(rewriting_.system().inequalities, fits) &&
+         std::ranges::all_of(rewriting_.definitions(), [&](const auto& d) { return fits(d.second); });
 }
 
 void Reducer::eliminate_fixed() {
@@ -223,10 +221,11 @@ bool Reducer::eliminate_image() {
       const auto value = rewriting_.value_of(v, i);
       if (!value || !affordable(v, *value)) continue;
       // A sine or cosine is no factor: c = cos t stays where another image is r·c.
-      const bool has_function = std::any_of(value->monomials.begin(), value->monomials.end(),
-                                            [](const Monomial& m) { return m.is_trigonometric(); });
-      if (has_function && std::any_of(rewriting_.definitions().begin(), rewriting_.definitions().end(),
-                                      [&](const auto& definition) { return certify::mentions(definition.second, v); }))
+      const bool has_function =
+          std::ranges::any_of(value->monomials, [](const Monomial& m) { return m.is_trigonometric(); });
+      if (has_function && std::ranges::any_of(rewriting_.definitions(), [&](const auto& definition) {
+            return certify::mentions(definition.second, v);
+          }))
         continue;
       eliminate(i, v);
       return true;

@@ -114,7 +114,7 @@ bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Bo
 
 void Slicer::leave_room(const Task& task, Box& piece) const {
   for (std::size_t j = 0; j < piece.size(); ++j) {
-    if (std::find(task.free.begin(), task.free.end(), static_cast<int>(j)) != task.free.end()) continue;
+    if (std::ranges::find(task.free, static_cast<int>(j)) != task.free.end()) continue;
     Interval& side = piece[j];
     const double sigma = problem_.sigma[j];
     const double size = j < problem_.compiled.scales().size() ? problem_.compiled.scales()[j] : 0;  // also about 0
@@ -233,7 +233,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
       if (dependent) step.reset();
     }
     // Small enough but for overestimation: look closer.
-    if (std::all_of(parts.begin(), parts.end(), [](int count) { return count == 1; })) {
+    if (std::ranges::all_of(parts, [](int count) { return count == 1; })) {
       certify::shrink_to_faces(problem_.compiled, task.sheet, *p, problem_.sigma, sides, workspace_);
       if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) return leave_elsewhere();
       step.reset();
@@ -244,7 +244,7 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   // in a row gain nothing, the piece stays as it is, proven.
   const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
   const auto divisible = [&](int j) { return split_point(sides[j]).has_value(); };
-  if (width <= 1 || task.whole || futile_cuts > kFutileCuts || std::none_of(free.begin(), free.end(), divisible)) {
+  if (width <= 1 || task.whole || futile_cuts > kFutileCuts || std::ranges::none_of(free, divisible)) {
     add(task, std::move(sides), *location);
     return;
   }

@@ -29,7 +29,7 @@ class DistinctSolutions {
     if (!images_) images_.emplace(sheet.image.size());
     std::vector<std::size_t> close;  // all others are different
     images_->for_each_overlapping(sheet.image, [&](std::size_t k) { close.push_back(k); });
-    std::sort(close.begin(), close.end());
+    std::ranges::sort(close);
     bool unclear = false;
     for (const std::size_t k : close) {
       switch (certify::compare_isolated(known_[k].sheet, sheet)) {
