@@ -62,8 +62,8 @@ std::string to_table(const Clearance& clearance);
 /// "complete", "stopped", "precision", "processed", "seconds"}.
 std::string to_json(const Clearance& clearance);
 
-/// What a clearance claims, but for a millionth of the radius, as results that corank verify checks like any other, with code
-/// that shares nothing with the search.
+/// What a clearance claims, but for a millionth of the radius, as results that corank verify checks like any other, with
+/// code that shares nothing with the search.
 ///
 /// "No singularity is nearer than the lower bound": the set of the ball's model within that radius, whose cover is empty and
 /// has its proof of completeness. Where a limit or degenerate solutions end the search before that, boxes are left.

@@ -64,8 +64,8 @@ std::vector<Box> hulls_by_region(const Cover& cover) {
   return hulls;
 }
 
-// label(box, what `bound` says of its region) for every box, on all threads; Known{} where nothing is said. What is shown all
-// over the boxes that were cut from a region is shown in each: most need no look of their own.
+// label(box, what `bound` says of its region) for every box, on all threads; Known{} where nothing is said. What is shown
+// all over the boxes that were cut from a region is shown in each: most need no look of their own.
 template <class Known, class Bound, class Label>
 void label_by_region(ThreadArena& arena, Cover& cover, const Ended& stopped, Bound bound, Label label) {
   std::vector<Box> hulls = hulls_by_region(cover);

@@ -72,9 +72,9 @@ class Coordinator {
   /// something is under way, fewer wait for others. None, though done() is false: the units that are under way have to be
   /// added first. At the beginning there is one unit, which ends as soon as there are boxes enough for all.
   std::vector<std::string> take_units(std::size_t wanted, std::size_t fewest_boxes = 1);
-  /// What UnitRunner::run() has returned. False: nothing is done, since that unit has been added before, or there is no memory for
-  /// it. Throws ShardError where it is none of this search's. The boxes in it stay as they are until the search is done: in
-  /// the bytes that `owner` keeps where they are, or else in a copy.
+  /// What UnitRunner::run() has returned. False: nothing is done, since that unit has been added before, or there is no
+  /// memory for it. Throws ShardError where it is none of this search's. The boxes in it stay as they are until the search
+  /// is done: in the bytes that `owner` keeps where they are, or else in a copy.
   bool add(std::string_view answer, std::shared_ptr<const void> owner = {});
   bool done() const;
   /// The search is done, and sheets are left to cut.

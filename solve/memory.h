@@ -33,8 +33,8 @@ class MemoryEstimate {
   std::int64_t box_, region_, sheet_, thread_, waiting_;
 };
 
-/// What this process may take, in bytes: the machine's main memory, or what the control groups of the process or its resource limits grant where that is
-/// less; 0 where nothing is known. The folders are Linux's; others are for tests.
+/// What this process may take, in bytes: the machine's main memory, or what the control groups of the process or its
+/// resource limits grant where that is less; 0 where nothing is known. The folders are Linux's; others are for tests.
 std::uint64_t machine_memory(const std::filesystem::path& proc = "/proc",
                              const std::filesystem::path& control_groups = "/sys/fs/cgroup");
 

@@ -37,7 +37,8 @@ struct TypicalSizes {
 };
 TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<Interval> domain);
 
-/// Propagation and interval Newton in turns. One per thread. The system, the preconditioners and the workspace have to outlive it.
+/// Propagation and interval Newton in turns. One per thread. The system, the preconditioners and the workspace have to
+/// outlive it.
 class Contractor {
  public:
   Contractor(const certify::CompiledSystem& system, const Heuristics& heuristics, PreconditionerFactory& preconditioners,
