@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
-#include "corank/kinematics/nearest_name.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/model_file.h"
+#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 
 using symbolic::in_quotes;
 using symbolic::ModelError;
+using symbolic::suggestion;
 
 namespace {
 

@@ -1,15 +1,16 @@
 // Rows of Denavit and Hartenberg in the parts language: each is a link, and the joint that carries it.
 #include <algorithm>
 
-#include "corank/kinematics/nearest_name.h"
 #include "corank/kinematics/part_builder.h"
 #include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 
 using symbolic::in_quotes;
 using symbolic::ModelError;
+using symbolic::suggestion;
 
 void PartBuilder::begin_dh(std::string_view convention, const SourceLocation& where) {
   dh = {};

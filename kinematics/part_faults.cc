@@ -1,13 +1,15 @@
 #include "corank/kinematics/part_faults.h"
 
-#include "corank/kinematics/nearest_name.h"
 #include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 namespace {
 
 using symbolic::describe_start;
 using symbolic::in_quotes;
+using symbolic::nearest_name;
+using symbolic::suggestion;
 
 const char* const kColours = "red, green, blue, purple, cyan, yellow, white, black, grey or color (r, g, b)";
 const std::vector<std::string> kColourWords{"red",    "green", "blue",  "purple", "cyan",

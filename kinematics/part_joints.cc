@@ -1,5 +1,4 @@
 // The joints of the parts language: what their ends, ranges and references mean.
-#include "corank/kinematics/nearest_name.h"
 #include "corank/kinematics/part_builder.h"
 #include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <set>
 
-#include "corank/kinematics/nearest_name.h"
 #include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 namespace {
 
 using symbolic::in_quotes;
 using symbolic::ModelError;
+using symbolic::nearest_name;
+using symbolic::suggestion;
 
 constexpr std::size_t kMaxNotices = 100;
 

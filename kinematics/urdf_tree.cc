@@ -4,17 +4,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "corank/kinematics/nearest_name.h"
 #include "corank/kinematics/urdf_reading.h"
 #include "corank/kinematics/urdf_visual.h"
 #include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
+#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 namespace {
 
 using symbolic::in_quotes;
 using symbolic::ModelError;
+using symbolic::suggestion;
 
 constexpr std::size_t kMaxLinks = 10'000;
 constexpr int kWholeTurn = 720;  ///< in half degrees

@@ -1,18 +1,20 @@
-#include "corank/kinematics/nearest_name.h"
+#include "corank/symbolic/nearest_name.h"
 
 #include <algorithm>
 #include <numeric>
 
 #include "corank/symbolic/expression_words.h"
 
-namespace corank::kinematics {
+namespace corank::symbolic {
 namespace {
 
 constexpr std::size_t kLongest = 60;
 
 char small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-std::size_t distance(const std::string& a, const std::string& b) {
+}  // namespace
+
+std::size_t letter_changes(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -27,15 +29,13 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-}  // namespace
-
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
   if (name.size() > kLongest) return "";
   std::string best;
   std::size_t fewest = name.size() / 3 + 1;
   for (const std::string& candidate : known) {
     if (candidate.size() > kLongest) continue;
-    const std::size_t changes = distance(name, candidate);
+    const std::size_t changes = letter_changes(name, candidate);
     if (changes >= candidate.size() || changes > fewest || (changes == fewest && !best.empty())) continue;
     best = candidate;
     fewest = changes;
@@ -45,7 +45,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 
 std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(name, known);
-  return nearest.empty() ? "" : "; did you mean " + symbolic::in_quotes(nearest) + "?";
+  return nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?";
 }
 
-}  // namespace corank::kinematics
+}  // namespace corank::symbolic
