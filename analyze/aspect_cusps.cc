@@ -7,7 +7,7 @@
 #include "corank/analyze/limits.h"
 #include "corank/analyze/topology.h"
 #include "corank/core/rounding.h"
-#include "corank/result/locus_words.h"
+#include "corank/result/sentences.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/cusp_system.h"

@@ -9,7 +9,7 @@
 #include "corank/analyze/json.h"
 #include "corank/certify/angle.h"
 #include "corank/core/check.h"
-#include "corank/result/pieces_file.h"
+#include "corank/result/claim_files.h"
 #include "corank/result/words.h"
 
 namespace corank::analyze {

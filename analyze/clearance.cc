@@ -10,7 +10,7 @@
 #include "corank/analyze/nearest.h"
 #include "corank/certify/angle.h"
 #include "corank/core/rounding.h"
-#include "corank/result/motion_words.h"
+#include "corank/result/sentences.h"
 #include "corank/result/verification.h"
 #include "corank/solve/problem.h"
 #include "corank/solve/propagation.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "corank/core/map_claims.h"
-#include "corank/result/map_file.h"
+#include "corank/result/claim_files.h"
 #include "corank/solve/control.h"
 #include "corank/study/question.h"
 #include "corank/symbolic/parameters.h"

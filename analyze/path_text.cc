@@ -5,7 +5,7 @@
 
 #include "corank/analyze/json.h"
 #include "corank/analyze/path.h"
-#include "corank/result/path_file.h"
+#include "corank/result/claim_files.h"
 
 namespace corank::analyze {
 namespace {

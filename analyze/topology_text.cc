@@ -5,7 +5,7 @@
 #include "corank/analyze/json.h"
 #include "corank/analyze/topology.h"
 #include "corank/core/check.h"
-#include "corank/result/shape_file.h"
+#include "corank/result/claim_files.h"
 #include "corank/result/words.h"
 
 namespace corank::analyze {

@@ -7,7 +7,7 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/certify/angle.h"
 #include "corank/result/result_file.h"
@@ -34,7 +34,7 @@ std::vector<Pair> pairs_of(const std::vector<std::string>& words, const result::
 
 // "atan2_st4_ct4", longer where a variable has that name.
 std::string angle_name(const result::SolFile& boxes, const Pair& pair) {
-  const auto name = [&boxes](int v) { return boxes.variables.at(static_cast<std::size_t>(v)); };
+  const auto name = [&boxes](int v) { return boxes.variables.at(v); };
   std::string text = "atan2_" + name(pair.sine) + "_" + name(pair.cosine);
   while (std::find(boxes.variables.begin(), boxes.variables.end(), text) != boxes.variables.end()) text += "_";
   return text;
@@ -49,7 +49,8 @@ std::optional<Verdict> verdict_in_angles(const std::optional<Verdict>& verdict) 
 
 result::SolFile in_angles(const result::SolFile& boxes, const std::vector<Pair>& pairs) {
   std::set<std::size_t> replaced;
-  for (const Pair& p : pairs) replaced.insert({static_cast<std::size_t>(p.sine), static_cast<std::size_t>(p.cosine)});
+  for (const Pair& p : pairs)
+    for (const int v : {p.sine, p.cosine}) replaced.insert(v);
   result::SolFile out;
   for (std::size_t i = 0; i < boxes.variables.size(); ++i) {
     if (!replaced.contains(i)) out.variables.push_back(boxes.variables[i]);
@@ -64,7 +65,7 @@ result::SolFile in_angles(const result::SolFile& boxes, const std::vector<Pair>&
     for (std::size_t i = 0; i < from.box.size(); ++i) {
       if (!replaced.contains(i)) box.box.push_back(from.box[i]);
     }
-    const auto at = [&from](int v) { return from.box[static_cast<std::size_t>(v)]; };
+    const auto at = [&from](int v) { return from.box[v]; };
     for (const Pair& p : pairs) box.box.push_back(certify::angle_enclosure(at(p.cosine), at(p.sine), range));
     box.verdict = verdict_in_angles(from.verdict);
   }
@@ -72,9 +73,8 @@ result::SolFile in_angles(const result::SolFile& boxes, const std::vector<Pair>&
 }
 
 ExitStatus angles(const std::vector<std::string>& words, double time_limit) {
-  if (words.size() < 4 || words.size() % 2 != 0) {
+  if (words.size() < 4 || words.size() % 2 != 0)
     throw UsageError("expected RESULT, pairs of a sine and a cosine, and OUTPUT.sol; corank angles --help tells more");
-  }
   WholeRun run(time_limit);
   run.enter("reading the boxes");
   const result::SolFile boxes = read_boxes(words.front());

@@ -6,17 +6,16 @@
 #include <memory>
 
 #include "corank/analyze/area_by_boundary.h"
-#include "corank/app/json_option.h"
+#include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/aspects_picture.h"
-#include "corank/result/pieces_file.h"
-#include "corank/result/printable.h"
+#include "corank/report/page_aspects.h"
+#include "corank/result/claim_files.h"
 #include "corank/result/result_file.h"
+#include "corank/result/words.h"
 
 namespace corank::app {
 namespace {

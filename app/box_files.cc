@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
-#include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/words.h"
 
 namespace corank::app {
 

@@ -9,17 +9,15 @@
 #include "corank/analyze/clearance.h"
 #include "corank/analyze/clearance_map.h"
 #include "corank/app/box_files.h"
-#include "corank/app/json_option.h"
+#include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/named_values.h"
-#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/heat_map.h"
-#include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/words.h"
 
 namespace corank::app {
 namespace {

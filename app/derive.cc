@@ -4,14 +4,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/result/derivation_json.h"
-#include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/summary.h"
+#include "corank/result/words.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/line_breaks.h"
@@ -42,9 +41,8 @@ void check_path(const std::string& path, const std::string& model) {
   const std::string extension = file.extension().string();
   bool kept = std::filesystem::equivalent(file, model, ignored);
   for (const char* input : {".world", ".urdf", ".loops", ".param"}) kept = kept || extension == input;
-  if (extension == ".cuik" && !kept) {
+  if (extension == ".cuik" && !kept)
     kept = symbolic::reading_fault(file).empty() && symbolic::read_bytes(file, kMark.size()) != kMark;
-  }
   if (kept) throw UsageError(path + ": not overwritten, because corank derive did not make it; remove it first");
 }
 
@@ -152,24 +150,23 @@ ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
 }  // namespace
 
 void add_derive(CLI::App& program, Action& action) {
-  CLI::App* command = program.add_subcommand(
+  CLI::App* sub = program.add_subcommand(
       "derive", "Print the equations of a model: constraints, Jacobian blocks and the system of a set");
   const auto options = std::make_shared<DeriveCommand>();
-  options->question.add_options(*command);
-  command
-      ->add_option("--format", options->format,
-                   "text or latex: with sines and cosines; cuik: as polynomials, in a file that corank solve accepts;\n"
-                   "model: the model itself, written out in order")
+  options->question.add_options(*sub);
+  sub->add_option("--format", options->format,
+                  "text or latex: with sines and cosines; cuik: as polynomials, in a file that corank solve accepts;\n"
+                  "model: the model itself, written out in order")
       ->check(CLI::IsMember({"text", "latex", "cuik", "model"}))
       ->capture_default_str();
-  add_time_limit(*command, options->time_limit);
-  command->add_option("-o", options->path, "Write to this file instead of standard output")->type_name("FILE");
-  options->json.add(*command, "the constraints, the velocity equation and the systems", "the text");
-  command->footer(
+  add_time_limit(*sub, options->time_limit);
+  sub->add_option("-o", options->path, "Write to this file instead of standard output")->type_name("FILE");
+  options->json.add(*sub, "the constraints, the velocity equation and the systems", "the text");
+  sub->footer(
       "Without --set, the set is cspace.\n\n"
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by the limit or an interrupt.\n\n"
       "Example:\n  corank derive models/dextar.cuik --set inverse --format latex");
-  command->callback([=, &action] { action = [=] { return derive(*command, *options); }; });
+  sub->callback([=, &action] { action = [=] { return derive(*sub, *options); }; });
 }
 
 }  // namespace corank::app

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <stdexcept>
 
 #include "corank/app/exit_status.h"
 #include "corank/core/exact_number.h"

@@ -4,7 +4,6 @@
 // as that expression. The ends are FROM and TO themselves.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

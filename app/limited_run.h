@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "corank/app/interrupt.h"
 #include "corank/app/watch.h"
 #include "corank/solve/control.h"
 

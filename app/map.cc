@@ -4,18 +4,16 @@
 #include <memory>
 
 #include "corank/analyze/parameter_map.h"
-#include "corank/app/json_option.h"
+#include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/named_values.h"
-#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/parameter_picture.h"
 #include "corank/report/portrait.h"
-#include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::app {

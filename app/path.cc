@@ -8,19 +8,18 @@
 #include <memory>
 
 #include "corank/app/box_files.h"
-#include "corank/app/json_option.h"
+#include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/named_values.h"
-#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
 #include "corank/app/set_search.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/path_page.h"
 #include "corank/report/set_look.h"
-#include "corank/result/path_file.h"
-#include "corank/result/printable.h"
+#include "corank/result/claim_files.h"
 #include "corank/result/result_file.h"
+#include "corank/result/words.h"
 
 namespace corank::app {
 namespace {

@@ -9,11 +9,10 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/gcl.h"
+#include "corank/report/picture.h"
 #include "corank/report/portrait.h"
-#include "corank/report/vtp.h"
 #include "corank/result/result_file.h"
 
 namespace corank::app {
@@ -59,18 +58,16 @@ report::PictureSource read_source(const PlotCommand& command, const std::string&
 void check_format(const PlotCommand& command) {
   const std::string extension = std::filesystem::path(command.output).extension().string();
   const bool flat = report::is_portrait_format(command.output);
-  if (!flat && extension != ".gcl" && extension != ".vtp") {
+  if (!flat && extension != ".gcl" && extension != ".vtp")
     throw UsageError(
         fmt::format("-o {}: the picture has an unknown format; expected a name that ends in .svg, .pdf, .png, .vtp or .gcl",
                     command.output));
-  }
   const std::size_t axes = command.picture.axes.size();
   if (axes < 2 || axes > 3) throw UsageError(fmt::format("--axes: {} given; expected two or three variables", axes));
-  if (flat && axes == 3) {
+  if (flat && axes == 3)
     throw UsageError(
         fmt::format("-o {}: {} pictures are flat; expected two axes, or a name that ends in .vtp or .gcl for three",
                     command.output, extension));
-  }
   report::check_can_draw(command.output);
 }
 
@@ -104,7 +101,7 @@ ExitStatus plot(const CLI::App& sub, const PlotCommand& command) {
     const std::string words = fmt::format("corank plot {} --axes {} --size {}", fmt::join(command.inputs, " "),
                                           fmt::join(command.picture.axes, ","), command.picture.size);
     result::write_text(command.output,
-                       report::to_gcl(picture, {std::filesystem::path(command.inputs[0]).stem().string(), words}));
+                       report::to_gcl(picture, std::filesystem::path(command.inputs[0]).stem().string(), words));
   }
   ExitStatus status = kDone;
   for (const report::PictureSource& source : sources) {

@@ -3,62 +3,65 @@
 #include <fmt/format.h>
 
 #include "corank/app/exit_status.h"
-#include "corank/app/named_values.h"
-#include "corank/result/printable.h"
+#include "corank/app/shared_options.h"
+#include "corank/result/words.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/regular_locus.h"
 
 namespace corank::app {
 
-void QuestionOptions::add_options(CLI::App& command) {
-  add_model(command);
-  std::vector<std::string> sets = kSets;
-  sets.emplace_back(kNodes);
-  command
-      .add_option("--set", set,
-                  "Which configurations of a mechanism: all (cspace), its forward, inverse or C-space singularities, the "
-                  "boundary of its workspace, the singularities of one type (ro to iim), or the cusps or nodes of a locus.\n"
-                  "nodes stands for forward-nodes or inverse-nodes, if only one of the two loci can have nodes")
-      ->check(CLI::IsMember(sets));
-  command
-      .add_option("--kernel", kernel,
-                  "Side of the kernel vector xi of the set's matrix M: right (M xi = 0) or left (M^T xi = 0);\n"
-                  "none: solve the set in parts, each with an equation of its own and no kernel vector;\n"
-                  "default: none if the set is a union of parts and has dimension 2 or more, or would need a\n"
-                  "vector of ten unknowns or more; otherwise right if M is square or tall, left if it is wide")
-      ->check(CLI::IsMember({"right", "left", "none"}));
-  add_corank(command);
-  add_outputs(command);
-  add_definitions(command);
+std::vector<std::string> set_names(bool usual) {
+  std::vector<std::string> names;
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
+    if (!usual || set.is_usual()) names.emplace_back(set.name);
+  return names;
 }
 
-void QuestionOptions::add_outputs(CLI::App& command) {
-  command
-      .add_option("--outputs", outputs,
-                  "For --set boundary: the coordinates of the workspace, with commas, at most as many as the mobility;\n"
-                  "default: the model's outputs")
+void QuestionOptions::add_options(CLI::App& sub) {
+  add_model(sub);
+  std::vector<std::string> sets = set_names();
+  sets.emplace_back(kNodes);
+  sub.add_option("--set", set,
+                 "Which configurations of a mechanism: all (cspace), its forward, inverse or C-space singularities, the "
+                 "boundary of its workspace, the singularities of one type (ro to iim), or the cusps or nodes of a locus.\n"
+                 "nodes stands for forward-nodes or inverse-nodes, if only one of the two loci can have nodes")
+      ->check(CLI::IsMember(sets));
+  sub.add_option("--kernel", kernel,
+                 "Side of the kernel vector xi of the set's matrix M: right (M xi = 0) or left (M^T xi = 0);\n"
+                 "none: solve the set in parts, each with an equation of its own and no kernel vector;\n"
+                 "default: none if the set is a union of parts and has dimension 2 or more, or would need a\n"
+                 "vector of ten unknowns or more; otherwise right if M is square or tall, left if it is wide")
+      ->check(CLI::IsMember({"right", "left", "none"}));
+  add_corank(sub);
+  add_outputs(sub);
+  add_definitions(sub);
+}
+
+void QuestionOptions::add_outputs(CLI::App& sub) {
+  sub.add_option("--outputs", outputs,
+                 "For --set boundary: the coordinates of the workspace, with commas, at most as many as the mobility;\n"
+                 "default: the model's outputs")
       ->type_name("NAME[,NAME...]")
       ->delimiter(',');
 }
 
-void QuestionOptions::add_model(CLI::App& command) {
-  command.add_option("FILE", file, "The model: equations (.cuik), parts (.cuik with [LINKS], or .world) or URDF (.urdf)");
-  command.add_option("--loops", loops, "Companion of a URDF file: the joints that close loops, the inputs and the outputs")
+void QuestionOptions::add_model(CLI::App& sub) {
+  sub.add_option("FILE", file, "The model: equations (.cuik), parts (.cuik with [LINKS], or .world) or URDF (.urdf)");
+  sub.add_option("--loops", loops, "Companion of a URDF file: the joints that close loops, the inputs and the outputs")
       ->type_name("FILE.loops")
       ->check(CLI::ExistingFile);
 }
 
-void QuestionOptions::add_corank(CLI::App& command) {
-  command
-      .add_option("--corank", corank,
-                  "Only configurations at which the kernel of the set's matrix M has dimension C or more;\n"
-                  "default: 1, all singularities")
+void QuestionOptions::add_corank(CLI::App& sub) {
+  sub.add_option("--corank", corank,
+                 "Only configurations at which the kernel of the set's matrix M has dimension C or more;\n"
+                 "default: 1, all singularities")
       ->type_name("C")
       ->check(CLI::PositiveNumber);
 }
 
-void QuestionOptions::add_definitions(CLI::App& command) {
-  command.add_option("-D", definitions, "Give a constant of the model another value; may be repeated")
+void QuestionOptions::add_definitions(CLI::App& sub) {
+  sub.add_option("-D", definitions, "Give a constant of the model another value; may be repeated")
       ->type_name("NAME=EXPR")
       ->allow_extra_args(false);
 }
@@ -94,9 +97,8 @@ std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& questi
     if (question.set.empty()) return std::nullopt;
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no --set", question.file));
   }
-  if (question.set.empty()) {
+  if (question.set.empty())
     throw UsageError(fmt::format("{} is a mechanism: --set is required ({})", question.file, symbolic::names_of_sets()));
-  }
   if (question.set == kNodes) return symbolic::nodes_of(mechanism);
   const auto set = symbolic::singularity_set_from_string(question.set);
   if (!symbolic::definition(set).has_kernel() && (question.corank != 1 || !question.kernel.empty()))

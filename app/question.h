@@ -11,20 +11,8 @@
 
 namespace corank::app {
 
-/// The sets of a mechanism, in the order in which a report has them.
-inline const std::vector<std::string> kSets = [] {
-  std::vector<std::string> names;
-  for (const symbolic::SetDefinition& set : symbolic::set_definitions()) names.emplace_back(set.name);
-  return names;
-}();
-
-/// Those of them that a report has unless it is told which.
-inline const std::vector<std::string> kUsualSets = [] {
-  std::vector<std::string> names;
-  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
-    if (set.is_usual()) names.emplace_back(set.name);
-  return names;
-}();
+/// The sets of a mechanism, in the order in which a report has them; `usual`: those that it has unless it is told which.
+std::vector<std::string> set_names(bool usual = false);
 
 /// What --set calls symbolic::nodes_of().
 inline constexpr const char* kNodes = "nodes";
@@ -37,13 +25,13 @@ struct QuestionOptions {
   int corank = 1;                        ///< of the sets with a kernel
 
   /// FILE, --loops, --set, --kernel, --corank and -D.
-  void add_options(CLI::App& command);
+  void add_options(CLI::App& sub);
   /// FILE and --loops.
-  void add_model(CLI::App& command);
-  void add_corank(CLI::App& command);
-  void add_outputs(CLI::App& command);
+  void add_model(CLI::App& sub);
+  void add_corank(CLI::App& sub);
+  void add_outputs(CLI::App& sub);
   /// -D alone.
-  void add_definitions(CLI::App& command);
+  void add_definitions(CLI::App& sub);
 };
 
 /// Reads the model and puts the constants of the options in: the question, but for its set. Tells the notices about the

@@ -1,41 +1,34 @@
 // corank report: solves all sets of a mechanism and writes one HTML page about them, with the result files beside it.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
 
 #include "corank/app/box_files.h"
-#include "corank/app/interrupt.h"
-#include "corank/app/json_option.h"
+#include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
 #include "corank/app/set_search.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/watch.h"
 #include "corank/report/figures.h"
 #include "corank/report/page.h"
-#include "corank/report/page_summary.h"
-#include "corank/result/motion_words.h"
-#include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/sentences.h"
 #include "corank/result/verification.h"
+#include "corank/result/words.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::app {
 namespace {
 
-/// A page of all sets is to be there within a minute, and to open in a browser.
-constexpr double kDefaultTimeLimit = 8;
-constexpr std::uint64_t kDefaultMaxFound = 200'000;
-
 struct ReportCommand {
   QuestionOptions question;
-  SetSearch search{1, kUsualSets, {}, {}, {.max_found = kDefaultMaxFound, .time_limit = kDefaultTimeLimit}};
+  SetSearch search{1, set_names(true), {}, {}, {.max_found = report::kPageBoxes, .time_limit = report::kPageSeconds}};
   std::vector<std::string> results;
   std::string folder;
   JsonOption json;
@@ -159,9 +152,9 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     ProgressLine line;
     std::vector<report::PictureSource> sources;
     for (const report::SetView& view : views) sources.push_back(report::picture_view(view.result, view.result.set));
-    figures = report::write_figures(folder / "figures", mechanism, std::move(sources),
+    figures = report::write_figures(folder, mechanism, std::move(sources),
                                     {&Interrupt::stop(), [&line](const std::string& text) { line.show(text); }});
-    for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
+    options.figures = figures.files;
     line.show("page");
     result::write_text(folder / "index.html", report_page(mechanism, views, options));
   }
@@ -193,7 +186,7 @@ void add_report(CLI::App& program, Action& action) {
   command->search.add_sets(*sub);
   command->question.add_corank(*sub);
   command->question.add_definitions(*sub);
-  command->search.add_limits(*sub);
+  command->search.limits.add_options(*sub, "each search");
   sub->add_flag("--proof", command->search.proof,
                 "Record each search in its result file, so that corank verify can check that no solution is missing");
   sub->add_option("--results", command->results, "Write the page about these results of one model, instead of solving")

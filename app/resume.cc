@@ -1,4 +1,4 @@
-#include "corank/app/resume.h"
+#include "corank/app/solve_command.h"
 
 #include <fmt/format.h>
 

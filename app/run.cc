@@ -9,18 +9,115 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <sstream>
 
-#include "corank/app/help_format.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/subcommands.h"
 #include "corank/core/check.h"
-#include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/words.h"
 #include "corank/solve/options.h"
 #include "corank/symbolic/model_error.h"
 
 namespace corank::app {
 namespace {
+
+constexpr std::size_t kColumns = 100;
+
+// Appends words, and where the line is full goes on in the next one after an indentation; a word that fits into no line is
+// broken after commas.
+class Lines {
+ public:
+  Lines(std::string begin, std::size_t indent) : text_(std::move(begin)), indent_(indent), column_(text_.size()) {}
+
+  void add(std::string word) {
+    while (indent_ + word.size() > kColumns) {
+      const std::size_t room = kColumns - std::min(kColumns, column_ + 1), comma = word.rfind(',', room - 1);
+      if (room == 0 || comma == std::string::npos) break;
+      put(word.substr(0, comma + 1));
+      word.erase(0, comma + 1);
+      next_line();
+    }
+    put(word);
+  }
+  void add_all(const std::string& words) {
+    std::istringstream in(words);
+    for (std::string word; in >> word;) add(word);
+  }
+  void next_line() {
+    text_ += '\n' + std::string(indent_, ' ');
+    column_ = indent_;
+    empty_ = true;
+  }
+  /// Goes on at a column of the same line, or of the next one where that is passed.
+  void to_column(std::size_t column) {
+    indent_ = column;
+    if (column_ >= column) return next_line();
+    text_.append(column - column_, ' ');
+    column_ = column;
+    empty_ = true;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void put(const std::string& word) {
+    if (!empty_ && column_ + 1 + word.size() > kColumns) next_line();
+    if (!empty_) text_ += ' ', ++column_;
+    text_ += word;
+    column_ += word.size();
+    empty_ = false;
+  }
+
+  std::string text_;
+  std::size_t indent_, column_;
+  bool empty_ = true;  // since the line began
+};
+
+std::string in_two_columns(const std::string& name, const std::string& description, std::size_t column) {
+  Lines lines("  ", 6);
+  lines.add_all(name);
+  if (!description.empty()) lines.to_column(column);
+  lines.add_all(description);
+  return lines.text() + "\n";
+}
+
+std::string in_paragraphs(const std::string& text) {
+  std::istringstream in(text);
+  std::string result, paragraph;
+  const auto end_paragraph = [&] {
+    Lines lines("", 0);
+    lines.add_all(paragraph);
+    if (!paragraph.empty()) result += lines.text() + "\n";
+    paragraph.clear();
+  };
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty() && line[0] != ' ') {
+      paragraph += line + " ";
+      continue;
+    }
+    end_paragraph();
+    result += line + "\n";
+  }
+  end_paragraph();
+  return result;
+}
+
+// Help texts at 100 columns, whatever the length of a description: options and subcommands in two columns, prose in
+// paragraphs. Lines that begin with a space, such as examples, stay as they are.
+class HelpFormat : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return in_two_columns(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option),
+                          column_width_);
+  }
+  std::string make_subcommand(const CLI::App* sub) const override {
+    return in_two_columns(sub->get_display_name(true), sub->get_description(), column_width_);
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return in_paragraphs(CLI::Formatter::make_description(app));
+  }
+  std::string make_footer(const CLI::App* app) const override { return in_paragraphs(CLI::Formatter::make_footer(app)); }
+};
 
 bool is_too_large(const std::string& digits) {
   errno = 0;
@@ -73,19 +170,9 @@ int run(const std::string& name, const std::vector<std::string>& args) {
       "  5  of solve: it is proven that the robot cannot be assembled within its ranges\n\n"
       "Example:\n  corank solve models/three_slider.cuik --set forward");
   Action action;
-  add_derive(program, action);
-  add_solve(program, action);
-  add_verify(program, action);
-  add_plot(program, action);
-  add_report(program, action);
-  add_sweep(program, action);
-  add_map(program, action);
-  add_clearance(program, action);
-  add_topology(program, action);
-  add_aspects(program, action);
-  add_path(program, action);
-  add_angles(program, action);
-
+  for (const auto add : {add_derive, add_solve, add_verify, add_plot, add_report, add_sweep, add_map, add_clearance,
+                         add_topology, add_aspects, add_path, add_angles})
+    add(program, action);
   try {
     program.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11 wants them backwards
     check_values(program);

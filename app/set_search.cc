@@ -7,7 +7,7 @@
 
 #include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
-#include "corank/app/search_limits.h"
+#include "corank/report/page.h"
 #include "corank/result/verification.h"
 #include "corank/study/answer.h"
 
@@ -32,14 +32,12 @@ void SetSearch::add_sets(CLI::App& command) {
   command.add_option("--sets", sets, "The sets to solve, with commas")
       ->type_name("SET[,SET...]")
       ->delimiter(',')
-      ->check(CLI::IsMember(kSets))
+      ->check(CLI::IsMember(set_names()))
       ->capture_default_str();
   command.add_option("--sigma", sigma,
                      "Largest edge of a box in sets of singularities; default: a share of the size of the set found");
   command.add_option("--cspace-sigma", cspace_sigma, "The same in C-space");
 }
-
-void SetSearch::add_limits(CLI::App& command) { limits.add_options(command, "each search"); }
 
 solve::Control::Limits SetSearch::limits_beside(const solve::Options& options, std::uint64_t taken) const {
   solve::Control::Limits result = of_command(limits_of(options));
@@ -90,7 +88,6 @@ std::string SetSearch::command_line(const std::string& subcommand, const Questio
 
 std::optional<report::SetView> solve_view(const SetSearch& search, study::Question question, std::size_t index,
                                           std::uint64_t taken) {
-  constexpr int kDigits = 12;  // of isolated points
   const std::vector<std::string>& sets = search.sets;
   question.set = symbolic::singularity_set_from_string(sets[index]);
   if (!symbolic::definition(question.set).has_kernel()) question.corank = 1;
@@ -100,7 +97,7 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
   study::Systems systems =
       study::systems_of(question, control, [&](const study::Question&, const System&) { return !control.ended(); });
   if (systems.of_parts.size() < systems.parts.size()) return std::nullopt;
-  const study::Options options{search.options(systems.of_parts.front(), *question.set), kDigits};
+  const study::Options options{search.options(systems.of_parts.front(), *question.set), report::kPageDigits};
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
   line.follow(control);
   result::Result result = study::answer(systems, options, control);

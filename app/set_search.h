@@ -2,7 +2,7 @@
 #pragma once
 
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/report/set_view.h"
 #include "corank/solve/solve.h"
 
@@ -17,8 +17,6 @@ struct SetSearch {
 
   /// --sets, --sigma, --cspace-sigma.
   void add_sets(CLI::App& command);
-  /// Those of SearchLimits.
-  void add_limits(CLI::App& command);
 
   /// Throws UsageError where an option is given that concerns none of the sets.
   void check_effect(const CLI::App& command) const;

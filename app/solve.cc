@@ -3,26 +3,24 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <thread>
 #include <utility>
 
 #include "corank/analyze/area_by_boundary.h"
 #include "corank/app/box_files.h"
+#include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
-#include "corank/app/resume.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
-#include "corank/result/assembled.h"
-#include "corank/result/cuik_param.h"
-#include "corank/result/printable.h"
+#include "corank/result/cuik_files.h"
 #include "corank/result/result_file.h"
+#include "corank/result/sentences.h"
 #include "corank/result/summary.h"
+#include "corank/result/words.h"
 #include "corank/study/answer.h"
 #include "corank/study/cost.h"
 #include "corank/study/run_journal.h"
@@ -58,11 +56,10 @@ void apply_parameters(SolveCommand& command, const System& system) {
   const result::CuikParameters parameters = result::read_param(command.param_path);
   if (!command.sigma) command.sigma = result::sigma_for(parameters, system);
   if (!command.max_solutions) command.max_solutions = parameters.n_solutions;
-  if (!parameters.ignored.empty()) {
+  if (!parameters.ignored.empty())
     fmt::print(stderr, "{}",
                result::printable(fmt::format("corank: {}: these parameters have no effect here: {}\n", command.param_path,
                                              fmt::join(parameters.ignored, ", "))));
-  }
 }
 
 void write_file(const std::string& path, const result::Result& result, const solve::Control& control) {

@@ -1,13 +1,14 @@
-// What the command line of corank solve says.
+// What the command line of corank solve says; from it to a run's checkpoints, and back.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 
-#include "corank/app/json_option.h"
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
+#include "corank/result/checkpoint.h"
 
 namespace corank::app {
 
@@ -27,5 +28,29 @@ struct SolveCommand {
 
 /// Adds the options, which write to `command`.
 void add_solve_options(CLI::App& sub, SolveCommand& command);
+
+/// What a checkpoint says of a run besides its states: the options that were given, but for limits, and the files they name.
+result::Checkpoint checkpoint_of(const CLI::App& sub, const SolveCommand& command);
+
+/// A run that goes on from a former one. The files that it was about are those of the checkpoint: where they are as they
+/// were, themselves, else copies that live as long as this object.
+class Resumed {
+ public:
+  /// `sub` and `now`: the command line with --resume or --refine. Throws ResultFileError, UsageError.
+  Resumed(const CLI::App& sub, const SolveCommand& now);
+  ~Resumed();
+  Resumed(const Resumed&) = delete;
+  Resumed& operator=(const Resumed&) = delete;
+
+  SolveCommand command;
+  result::Checkpoint checkpoint;
+
+ private:
+  void restore();
+  std::string file_of(const result::Checkpoint::File& file);
+
+  std::string path_;
+  std::optional<std::filesystem::path> copies_;
+};
 
 }  // namespace corank::app

@@ -8,15 +8,15 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/family.h"
-#include "corank/app/interrupt.h"
-#include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
 #include "corank/app/set_search.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
+#include "corank/app/watch.h"
 #include "corank/report/family_page.h"
 #include "corank/report/figures.h"
-#include "corank/report/page_summary.h"
+#include "corank/report/page.h"
 #include "corank/report/page_words.h"
 #include "corank/result/result_file.h"
 #include "corank/study/answer.h"
@@ -28,12 +28,9 @@
 namespace corank::app {
 namespace {
 
-/// Coarser than a report's: there are many pictures on the page, and they are small.
-constexpr double kCoarser = 2;  // than corank solve
-
 struct SweepCommand {
   QuestionOptions question;
-  SetSearch search{kCoarser, {"cspace", "forward", "inverse"}};
+  SetSearch search{report::kFamilyCoarser, {"cspace", "forward", "inverse"}};
   std::string folder;
   JsonOption json;
 };
@@ -99,8 +96,7 @@ std::vector<study::EarlyTask> early_tasks(const SweepCommand& command, const std
       const study::Options options = options_of(command, plan, s);
       tasks.push_back({symbolic::singularity_set_from_string(command.search.sets[s]), plan.systems[s], plan.blocks[s],
                        options, command.search.limits_beside(options.search, 0), s});
-      tasks.back().then = [&to = found[tasks.size() - 1],
-                           size = static_cast<std::size_t>(plan.systems[s].configuration_size)](const Cover& cover) {
+      tasks.back().then = [&to = found[tasks.size() - 1], size = plan.systems[s].configuration_size](const Cover& cover) {
         to = report::components(cover.boxes, size);
       };
     }
@@ -209,8 +205,8 @@ ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
   QuestionOptions first_member = command.question;
   first_member.definitions = definitions_of(family, 0, command.question.definitions);
   options.report_command = command.search.command_line("report", first_member);
-  const report::Figures figures = draw_members(folder / "figures", members, options);
-  for (const std::string& name : figures.files) options.figures.push_back("figures/" + name);
+  const report::Figures figures = draw_members(folder, members, options);
+  options.figures = figures.files;
   result::write_text(folder / "index.html", family_page(members, options));
 
   bool complete = members.size() == plans.size() && !figures.stopped;
@@ -250,7 +246,7 @@ void add_sweep(CLI::App& program, Action& action) {
       ->type_name("NAME=FROM:TO:COUNT|NAME=EXPR")
       ->allow_extra_args(false);
   command->search.add_sets(*sub);
-  command->search.add_limits(*sub);
+  command->search.limits.add_options(*sub, "each search");
   command->json.add(*sub, "the contents of the page");
   sub->add_option("-o", command->folder, "Folder for index.html, the results and the figures; default: MODEL-sweep")
       ->type_name("FOLDER");

@@ -5,16 +5,15 @@
 
 #include <memory>
 
-#include "corank/app/json_option.h"
+#include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
-#include "corank/app/output.h"
 #include "corank/app/progress.h"
 #include "corank/app/question.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/result/printable.h"
+#include "corank/result/claim_files.h"
 #include "corank/result/result_file.h"
-#include "corank/result/shape_file.h"
+#include "corank/result/words.h"
 
 namespace corank::app {
 namespace {

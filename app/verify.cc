@@ -9,20 +9,15 @@
 #include <memory>
 #include <random>
 
-#include "corank/app/interrupt.h"
-#include "corank/app/json_option.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
-#include "corank/app/search_limits.h"
+#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
-#include "corank/result/map_file.h"
-#include "corank/result/path_file.h"
-#include "corank/result/pieces_file.h"
-#include "corank/result/printable.h"
+#include "corank/result/claim_files.h"
 #include "corank/result/result_file.h"
-#include "corank/result/shape_file.h"
 #include "corank/result/verification.h"
+#include "corank/result/words.h"
 
 namespace corank::app {
 namespace {
@@ -42,11 +37,8 @@ result::Verification check(const result::Result& result, const System& system, c
                            const Ended& ended) {
   using Clock = std::chrono::steady_clock;
   ProgressLine line;
-  check::Options options;
-  options.threads = command.threads;
-  options.sample = command.sample;
+  check::Options options{.threads = command.threads, .progress = {}, .ended = ended, .sample = command.sample};
   if (command.sample > 0) options.seed = std::random_device()();  // nobody can have prepared the file for it
-  options.ended = ended;
   if (line.visible()) {
     options.progress = [&line, next = Clock::now()](const check::Progress& p) mutable {
       if (Clock::now() < next) return;
@@ -60,10 +52,9 @@ result::Verification check(const result::Result& result, const System& system, c
 
 // Called where the work does not end although it was asked to; the other threads still run.
 [[noreturn]] void give_up(const VerifyCommand& command, const std::string& stage) {
-  if (command.json.say([&] { return result::ended_early_json(stage); })) {
+  if (command.json.say([&] { return result::ended_early_json(stage); }))
     fmt::print("{}: interrupted in {}: it is not known what was checked, so nothing is said about the file\n",
                result::printable_line(command.input), stage);
-  }
   std::fflush(nullptr);
   std::_Exit(kIncomplete);
 }
@@ -87,10 +78,7 @@ template <auto kRead>
 ExitStatus verify_certificate(const VerifyCommand& command, Watch& watch, const Ended& ended) {
   const auto file = kRead(command.input);
   watch.enter("the check");
-  check::Options options;
-  options.threads = command.threads;
-  options.ended = ended;
-  const auto report = result::verify(file, options);
+  const auto report = result::verify(file, {.threads = command.threads, .progress = {}, .ended = ended});
   watch.done();
   if (command.json.say([&] { return result::to_json(report, file); })) fmt::print("{}", result::to_table(report, file));
   return status(command, report.complete(), report.verified(), report.interrupted && report.failures.empty());

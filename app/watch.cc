@@ -1,9 +1,22 @@
 #include "corank/app/watch.h"
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
+
+#include "corank/result/output_file.h"
 
 namespace corank::app {
 namespace {
+
+std::atomic<bool> stop_flag = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
+
+extern "C" void on_signal(int signal) {
+  if (!stop_flag.exchange(true)) return;
+  result::remove_part_files();
+  std::_Exit(128 + signal);
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -15,6 +28,19 @@ Clock::time_point later(Clock::time_point from, Watch::Duration duration) {
 }
 
 }  // namespace
+
+Interrupt::Interrupt() {
+  stop_flag = false;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+Interrupt::~Interrupt() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+const std::atomic<bool>& Interrupt::stop() { return stop_flag; }
 
 Watch::Watch(double seconds, const std::atomic<bool>& interrupt, std::function<void(const std::string&)> give_up,
              Duration grace, std::function<Work()> deaf)

@@ -1,5 +1,5 @@
-// Watches over work that has to end by a time or on Ctrl-C: it asks for the end with a flag, and where the work does not
-// look at it, ends the program with a statement.
+// Work that has to end by a time or on Ctrl-C: a flag asks for the end; where the work does not look at it, a watch ends the
+// program with a statement.
 #pragma once
 
 #include <atomic>
@@ -12,6 +12,17 @@
 #include <thread>
 
 namespace corank::app {
+
+/// For the time of its life, SIGINT and SIGTERM set stop(); a second signal exits with status 128 + its number.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  static const std::atomic<bool>& stop();
+};
 
 class Watch {
  public:
@@ -28,8 +39,6 @@ class Watch {
   Watch(double seconds, const std::atomic<bool>& interrupt, std::function<void(const std::string& stage)> give_up,
         Duration grace = kGrace, std::function<Work()> deaf = {});
   ~Watch();
-  Watch(const Watch&) = delete;
-  Watch& operator=(const Watch&) = delete;
 
   const std::atomic<bool>& stop() const { return stop_; }
   /// What is done from now on, in words for the statement: "reading the file".

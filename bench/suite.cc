@@ -31,7 +31,7 @@
 #include "corank/bench/lu_unit.h"
 #include "corank/certify/newton.h"
 #include "corank/core/rounding.h"
-#include "corank/result/cuik_param.h"
+#include "corank/result/cuik_files.h"
 #include "corank/solve/preconditioner.h"
 #include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"

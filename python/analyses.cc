@@ -10,10 +10,9 @@
 #include "corank/analyze/path.h"
 #include "corank/analyze/topology.h"
 #include "corank/python/bindings.h"
-#include "corank/python/certificate.h"
 #include "corank/python/result.h"
-#include "corank/result/path_file.h"
-#include "corank/result/pieces_file.h"
+#include "corank/python/watched.h"
+#include "corank/result/claim_files.h"
 
 namespace corank::python {
 namespace {
@@ -186,8 +185,7 @@ std::optional<std::pair<double, double>> area(const Question& question, int thre
 }  // namespace
 
 void bind_analyses(py::module_& module) {
-  bind_certificate<result::PiecesFile>(module, "PiecesFile",
-                                       [](const auto& path, const auto& file) { result::write_pieces(path, file); });
+  bind_certificate<result::PiecesFile>(module, "PiecesFile", &result::write_pieces);
   bind_certificate<result::PathFile>(module, "PathFile", &result::write_path);
   py::class_<analyze::BallOptions>(module, "Ball").def(py::init(&ball));
   module.def("topology", &topology);

@@ -16,6 +16,5 @@ void bind_analyses(py::module_& module);
 void bind_maps(py::module_& module);
 void bind_report(py::module_& module);
 void bind_cluster(py::module_& module);
-void bind_errors();
 
 }  // namespace corank::python

@@ -7,8 +7,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
-
 #include "corank/result/checkpoint.h"
 #include "corank/solve/shard_bytes.h"
 #include "corank/study/spread_run.h"
@@ -72,17 +70,15 @@ class Run {
                                                       });
     if (info->itemsize != 1 || info->ndim != 1 || info->strides[0] != 1)
       throw std::invalid_argument("an answer is an array of bytes");
-    const std::string_view bytes(static_cast<const char*>(info->ptr), static_cast<std::size_t>(info->size));
+    const std::string_view bytes(static_cast<const char*>(info->ptr), info->size);
     return unlocked([&] { return run_->search().add(bytes, info); });
   }
   bool done() { return run_->search().done(); }
-  bool cutting() { return run_->search().cutting(); }
   bool ended() { return run_->search().ended(); }
   double seconds_left() { return run_->seconds_left(); }
   void keep_state(const std::vector<std::string>& arguments, const Files& files, const std::vector<std::string>& finished) {
     unlocked([&] { run_->keep_state(checkpoint_of(arguments, files, finished)); });
   }
-  std::size_t under_way() { return run_->search().under_way(); }
   double share_done() { return run_->search().share_done(); }
   py::bytes state() {
     return unlocked([&] { return run_->search().state(); });
@@ -143,11 +139,9 @@ void bind_cluster(py::module_& module) {
       .def("next_units", &Run::next_units, py::arg("threads"), py::arg("longest"), py::arg("time"))
       .def("add", &Run::add)
       .def_property_readonly("done", &Run::done)
-      .def_property_readonly("cutting", &Run::cutting)
       .def_property_readonly("ended", &Run::ended)
       .def_property_readonly("seconds_left", &Run::seconds_left)
       .def("keep_state", &Run::keep_state)
-      .def_property_readonly("under_way", &Run::under_way)
       .def_property_readonly("share_done", &Run::share_done)
       .def("state", &Run::state);
   module.def("run_unit", &run_unit);

@@ -3,7 +3,7 @@
 
 #include "corank/analyze/parameter_map.h"
 #include "corank/python/bindings.h"
-#include "corank/python/certificate.h"
+#include "corank/python/watched.h"
 
 namespace corank::python {
 namespace {
@@ -72,8 +72,7 @@ class ParameterMap {
 }  // namespace
 
 void bind_maps(py::module_& module) {
-  bind_certificate<result::MapFile>(module, "MapFile",
-                                    [](const auto& path, const auto& file) { result::write_map(path, file); });
+  bind_certificate<result::MapFile>(module, "MapFile", &result::write_map);
   py::class_<ParameterMap>(module, "ParameterMap")
       .def(py::init<const study::Question&, const std::vector<std::tuple<std::string, Expression, Expression>>&,
                     const std::vector<std::pair<std::string, Expression>>&, const std::string&, int, bool>())

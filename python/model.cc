@@ -1,11 +1,11 @@
-#include "corank/python/model.h"
-
+// Mechanisms and questions about them.
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include "corank/python/bindings.h"
 #include "corank/report/figures.h"
 #include "corank/report/set_look.h"
+#include "corank/study/model.h"
 #include "corank/study/question.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_text.h"
@@ -17,6 +17,31 @@ namespace {
 using symbolic::Expression;
 using symbolic::Mechanism;
 using symbolic::ModelError;
+
+// With what it takes to make it anew with other constants, or in another process.
+struct Origin {
+  study::ModelText model;
+  std::optional<study::ModelText> loops;  // of a URDF file: its companion
+};
+struct Model {
+  std::optional<Origin> origin;  // nothing: built, or changed, by the functions of Mechanism
+  study::Model value;
+  std::vector<result::ConstantOverride> constants;  // that were put in
+
+  const symbolic::Mechanism& mechanism() const { return value.mechanism; }
+  symbolic::Mechanism& changed() {
+    if (value.assembly)
+      throw ModelError({mechanism().name(), 0, 0}, "its equations come from its links and joints",
+                       "a change of these, in their text");
+    origin.reset();
+    return value.mechanism;
+  }
+};
+
+Model make_model(Origin origin, std::vector<result::ConstantOverride> constants) {
+  study::Model value = study::parse_model(origin.model, constants, origin.loops);
+  return {std::move(origin), std::move(value), std::move(constants)};
+}
 
 using Text = std::tuple<std::string, std::string, std::string>;  // its text, file, folder
 using Constants = std::vector<std::pair<std::string, std::string>>;
@@ -127,7 +152,6 @@ void bind_building(py::class_<Model>& type) {
   });
   type.def("unit_vector", [](Model& m, const std::string& name) { return m.changed().unit_vector(name); });
   type.def("rotation", [](Model& m, const std::string& name) { return m.changed().rotation(name); });
-  type.def("mark_auxiliary", [](Model& m, std::size_t n) { m.changed().mark_auxiliary(n); });
   type.def("constrain", [](Model& m, const symbolic::Relation& r) { m.changed().constrain(r); });
   type.def("imply", [](Model& m, const symbolic::Relation& r) { m.changed().imply(r); });
   type.def("velocity", [](Model& m, const symbolic::Relation& r) { m.changed().velocity(r); });
@@ -182,19 +206,6 @@ study::Question question_of(const Model& model, const std::optional<std::string>
 
 }  // namespace
 
-symbolic::Mechanism& Model::changed() {
-  if (value.assembly)
-    throw ModelError({mechanism().name(), 0, 0}, "its equations come from its links and joints",
-                     "a change of these, in their text");
-  origin.reset();
-  return value.mechanism;
-}
-
-Model make_model(Origin origin, std::vector<result::ConstantOverride> constants) {
-  study::Model value = study::parse_model(origin.model, constants, origin.loops);
-  return {std::move(origin), std::move(value), std::move(constants)};
-}
-
 void bind_model(py::module_& module) {
   py::class_<Model> type(module, "Model");
   type.def(py::init([](const std::string& name) { return Model{{}, {Mechanism(name), {}, {}}, {}}; }), py::arg("name"));
@@ -230,7 +241,6 @@ void bind_model(py::module_& module) {
            py::arg("corank") = 1, py::arg("outputs") = std::vector<std::string>(), py::arg("tolerance") = py::none());
   module.def("load", &load, py::arg("path"), py::arg("loops"), py::arg("constants"));
   module.def("parse", &parse, py::arg("model"), py::arg("loops"), py::arg("constants"));
-  module.def("latex_name", &symbolic::latex_name);
   py::list sets;
   for (const symbolic::SetDefinition& set : symbolic::set_definitions())
     sets.append(py::make_tuple(set.name, report::look(set).title, report::look(set).meaning, set.is_usual(),

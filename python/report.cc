@@ -152,7 +152,6 @@ void write_portrait(const std::filesystem::path& path, const std::vector<Result>
 
 std::vector<std::string> write_figures(const std::filesystem::path& folder, const std::vector<Result>& results) {
   const py::gil_scoped_release unlocked;
-  std::filesystem::create_directories(folder);
   if (results.empty()) return {};
   return report::write_figures(folder, mechanism_of(results), sources_of(results), {}).files;
 }
@@ -161,7 +160,6 @@ std::vector<std::string> write_family_figures(const std::filesystem::path& folde
                                               const std::vector<std::vector<Result>>& members,
                                               const std::vector<std::string>& axes, const std::vector<std::string>& titles) {
   const py::gil_scoped_release unlocked;
-  std::filesystem::create_directories(folder);
   std::vector<std::vector<report::PictureSource>> sources;
   for (const std::vector<Result>& results : members) sources.push_back(sources_of(results));
   return report::write_family_figures(folder, sources, axes, titles, {}).files;
@@ -172,6 +170,8 @@ std::vector<std::string> write_family_figures(const std::filesystem::path& folde
 void bind_report(py::module_& module) {
   py::class_<PathPicture, std::shared_ptr<PathPicture>>(module, "PathPicture");
   py::class_<report::PageAspects, Aspects>(module, "PageAspects");
+  module.attr("page_limits") = py::make_tuple(report::kPageBoxes, report::kPageSeconds, report::kPageDigits);
+  module.attr("family_coarser") = report::kFamilyCoarser;
   module.def("page_aspects", &page_aspects);
   module.def("report_page", &page);
   module.def("path_page", &path_page);

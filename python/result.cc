@@ -9,44 +9,31 @@
 #include "corank/python/bindings.h"
 #include "corank/python/watched.h"
 #include "corank/report/set_view.h"
-#include "corank/result/assembled.h"
-#include "corank/result/cuik_sol.h"
-#include "corank/result/exact_angle.h"
-#include "corank/result/motion_words.h"
+#include "corank/result/cuik_files.h"
 #include "corank/result/result_file.h"
+#include "corank/result/sentences.h"
 #include "corank/result/stored_list.h"
 #include "corank/result/summary.h"
 #include "corank/result/tallies.h"
 #include "corank/result/verification.h"
+#include "corank/result/words.h"
 
 namespace corank::python {
 
-BoxArrays::BoxArrays(const std::vector<CoverBox>& boxes, std::size_t n) : size(boxes.size()), variables(n) {
-  bounds.reserve(2 * size * n);
-  free.assign(size * n, 0);
-  for (auto* list : {&verdict, &reason, &types_proven, &types_excluded, &passage}) list->reserve(size);
-  for (auto* list : {&kernel_at_most, &region, &point, &part}) list->reserve(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    const CoverBox& b = boxes[i];
-    CORANK_CHECK(b.box.size() == n);
-    for (const Interval& side : b.box) {
-      bounds.push_back(side.lo());
-      bounds.push_back(side.hi());
-    }
-    for (const int j : b.free) free[i * n + static_cast<std::size_t>(j)] = 1;
-    verdict.push_back(static_cast<std::uint8_t>(b.verdict));
-    reason.push_back(static_cast<std::uint8_t>(b.reason));
-    types_proven.push_back(b.types.proven);
-    types_excluded.push_back(b.types.excluded);
-    passage.push_back(static_cast<std::uint8_t>(b.passage));
-    kernel_at_most.push_back(b.kernel_at_most);
-    region.push_back(b.region);
-    point.push_back(b.point);
-    part.push_back(b.part);
-  }
-}
-
 namespace {
+
+template <class T>
+using Member = std::pair<const char*, T (*)(const CoverBox&)>;
+constexpr std::array kBytes{
+    Member<std::uint8_t>{"verdict", [](const CoverBox& b) { return static_cast<std::uint8_t>(b.verdict); }},
+    Member<std::uint8_t>{"reason", [](const CoverBox& b) { return static_cast<std::uint8_t>(b.reason); }},
+    Member<std::uint8_t>{"types_proven", [](const CoverBox& b) { return b.types.proven; }},
+    Member<std::uint8_t>{"types_excluded", [](const CoverBox& b) { return b.types.excluded; }},
+    Member<std::uint8_t>{"passage", [](const CoverBox& b) { return static_cast<std::uint8_t>(b.passage); }}};
+constexpr std::array kNumbers{Member<std::int32_t>{"kernel_at_most", [](const CoverBox& b) { return b.kernel_at_most; }},
+                              Member<std::int32_t>{"region", [](const CoverBox& b) { return b.region; }},
+                              Member<std::int32_t>{"point", [](const CoverBox& b) { return b.point; }},
+                              Member<std::int32_t>{"part", [](const CoverBox& b) { return b.part; }}};
 
 // A read-only array over memory that `owner` keeps alive.
 template <class T>
@@ -63,15 +50,8 @@ py::dict box_arrays(const std::shared_ptr<const BoxArrays>& a) {
   py::dict arrays;
   arrays["bounds"] = view(a, a->bounds, {n, m, 2});
   arrays["free"] = view(a, a->free, {n, m}).attr("view")("bool");
-  arrays["verdict"] = view(a, a->verdict, {n});
-  arrays["reason"] = view(a, a->reason, {n});
-  arrays["types_proven"] = view(a, a->types_proven, {n});
-  arrays["types_excluded"] = view(a, a->types_excluded, {n});
-  arrays["passage"] = view(a, a->passage, {n});
-  arrays["kernel_at_most"] = view(a, a->kernel_at_most, {n});
-  arrays["region"] = view(a, a->region, {n});
-  arrays["point"] = view(a, a->point, {n});
-  arrays["part"] = view(a, a->part, {n});
+  for (const auto& [name, column] : a->bytes) arrays[name] = view(a, column, {n});
+  for (const auto& [name, column] : a->numbers) arrays[name] = view(a, column, {n});
   return arrays;
 }
 
@@ -83,8 +63,7 @@ py::array_t<double> angle_enclosures(const Result& r, const std::string& name, b
     py::array_t<double> array({static_cast<py::ssize_t>(boxes.size()), py::ssize_t{2}});
     double* to = array.mutable_data();
     for (const CoverBox& b : boxes) {
-      const Interval x = certify::angle_enclosure(b.box[static_cast<std::size_t>(angle.cosine)],
-                                                  b.box[static_cast<std::size_t>(angle.sine)], angle.range);
+      const Interval x = certify::angle_enclosure(b.box[angle.cosine], b.box[angle.sine], angle.range);
       *to++ = x.lo();
       *to++ = x.hi();
     }
@@ -147,9 +126,7 @@ void save(const Result& r, const std::filesystem::path& path) {
 
 py::tuple verify(const Result& r, int threads, const py::object& progress) {
   return said(progress, [shared = r.shared(), threads](Watcher& watcher) {
-    check::Options options;
-    options.threads = threads;
-    options.ended = [&watcher] { return watcher.stop.load(); };
+    check::Options options{.threads = threads, .progress = {}, .ended = [&watcher] { return watcher.stop.load(); }};
     options.progress = [&watcher](const check::Progress& p) {
       const bool script = p.steps > 0;
       const double done = static_cast<double>(script ? p.steps : p.boxes),
@@ -175,6 +152,21 @@ py::dict words(const Result& r) {
 }
 
 }  // namespace
+
+BoxArrays::BoxArrays(const std::vector<CoverBox>& boxes, std::size_t n) : size(boxes.size()), variables(n) {
+  bounds.reserve(2 * size * n);
+  free.assign(size * n, 0);
+  for (const auto& [name, of] : kBytes) bytes.emplace_back(name, std::vector<std::uint8_t>()).second.reserve(size);
+  for (const auto& [name, of] : kNumbers) numbers.emplace_back(name, std::vector<std::int32_t>()).second.reserve(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const CoverBox& b = boxes[i];
+    CORANK_CHECK(b.box.size() == n);
+    for (const Interval& side : b.box) bounds.insert(bounds.end(), {side.lo(), side.hi()});
+    for (const int j : b.free) free[i * n + static_cast<std::size_t>(j)] = 1;
+    for (std::size_t k = 0; k < kBytes.size(); ++k) bytes[k].second.push_back(kBytes[k].second(b));
+    for (std::size_t k = 0; k < kNumbers.size(); ++k) numbers[k].second.push_back(kNumbers[k].second(b));
+  }
+}
 
 void bind_result(py::module_& module) {
   py::class_<Result> type(module, "Result");

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "corank/report/path_view.h"
+#include "corank/report/path_page.h"
 #include "corank/result/result.h"
 
 namespace corank::python {
@@ -16,12 +16,11 @@ struct BoxArrays {
   BoxArrays(const std::vector<CoverBox>& boxes, std::size_t variables);
 
   std::size_t size = 0, variables = 0;
-  std::vector<double> bounds;                              ///< size × variables × 2: lower and upper ends
-  std::vector<std::uint8_t> free;                          ///< size × variables: 1 where the variable is free in the box
-  std::vector<std::uint8_t> verdict, reason;               ///< indices of Verdict, Reason
-  std::vector<std::uint8_t> types_proven, types_excluded;  ///< bits of SingularityType
-  std::vector<std::uint8_t> passage;                       ///< indices of Passage
-  std::vector<std::int32_t> kernel_at_most, region, point, part;  ///< as in CoverBox
+  std::vector<double> bounds;      ///< size × variables × 2: lower and upper ends
+  std::vector<std::uint8_t> free;  ///< size × variables: 1 where the variable is free in the box
+  /// Members of CoverBox by name: indices of Verdict, Reason, Passage and bits of SingularityType; numbers.
+  std::vector<std::pair<const char*, std::vector<std::uint8_t>>> bytes;
+  std::vector<std::pair<const char*, std::vector<std::int32_t>>> numbers;
 };
 
 class Result {

@@ -6,9 +6,9 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <atomic>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -16,6 +16,7 @@
 #include <string>
 #include <type_traits>
 
+#include "corank/result/verification.h"
 #include "corank/solve/control.h"
 
 namespace corank::python {
@@ -94,5 +95,22 @@ auto within(double seconds, Work work) {
 
 /// At the interpreter's end: waits for work that was left alone.
 void wait_for_the_abandoned();
+
+template <class File>
+py::tuple verify_file(const File& file, int threads, const py::object& progress) {
+  return said(progress, [file, threads](Watcher& watcher) {
+    const check::Options options{.threads = threads, .progress = {}, .ended = [&watcher] { return watcher.stop.load(); }};
+    const auto report = verify(file, options);
+    return std::tuple(to_json(report, file), to_table(report, file));
+  });
+}
+
+/// A class with write(path) and verify(threads, progress), which returns JSON, a table and what ended it.
+template <class File, class Write>
+void bind_certificate(py::module_& module, const char* name, Write write) {
+  py::class_<File, std::shared_ptr<File>>(module, name)
+      .def("write", [write](const File& file, const std::filesystem::path& path) { write(path, file, {}); })
+      .def("verify", &verify_file<File>);
+}
 
 }  // namespace corank::python

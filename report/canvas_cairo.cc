@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "corank/report/canvas.h"
+#include "corank/report/layout.h"
 #include "corank/report/portrait.h"
 #include "corank/result/result_file.h"
 

@@ -1,7 +1,7 @@
 // Pictures without Cairo.
 #include <array>
 
-#include "corank/report/canvas.h"
+#include "corank/report/layout.h"
 #include "corank/report/portrait.h"
 
 namespace corank::report {

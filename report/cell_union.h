@@ -1,5 +1,5 @@
-// The union of many rectangles on a grid of unit cells, as few polygons: how boxes that cannot be told apart at a picture's
-// resolution become one shape.
+// Unions of polygons on a grid, as few polygons: how boxes that cannot be told apart at a picture's resolution, and the
+// parts of a region, become one shape.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,7 @@ struct GridPoint {
 /// A closed polygon whose edges are horizontal and vertical in turns, the first one horizontal.
 using GridPolygon = std::vector<GridPoint>;
 
+/// The union of many rectangles on a grid of unit cells.
 class CellUnion {
  public:
   /// The grid [0, columns] × [0, rows].
@@ -35,5 +36,9 @@ class CellUnion {
   std::size_t words_;  // of a row
   std::vector<std::uint64_t> cells_;
 };
+
+/// Rings whose interior by the even-odd rule is the union of the polygons', of either sense, but for what is nearer than
+/// `tolerance` to its border; holes and pieces that are hardly larger than that are left out.
+std::vector<GridPolygon> outlines_of_union(const std::vector<GridPolygon>& polygons, double tolerance);
 
 }  // namespace corank::report

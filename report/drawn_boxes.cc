@@ -1,7 +1,5 @@
 #include "corank/report/drawn_boxes.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <map>

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "corank/report/drawing_tree.h"
 #include "corank/report/page_assets.h"
 #include "corank/report/page_data.h"
 #include "corank/report/page_words.h"
@@ -20,8 +19,6 @@
 
 namespace corank::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The variables of a result in the plane of two coordinates, by index: of a length itself, of an angle its cosine and its
 /// sine. Throws std::invalid_argument where the result lacks a coordinate.
@@ -123,22 +120,19 @@ Findings family_words(const std::vector<FamilyMember>& members, const FamilyOpti
         fmt::format("{} of {} searches ended early and left {} boxes unsearched, which may hold solutions.",
                     grouped(t.covers - t.complete), grouped(t.covers), grouped(t.pending)));
   }
-  if (t.proven > 0) {
+  if (t.proven > 0)
     words.proven.push_back(
         fmt::format("{} of all {} boxes ({}) are proven to hold solutions: exactly one for every value of their free "
                     "coordinates.",
                     grouped(t.proven), grouped(t.boxes), percentage(t.proven, t.boxes)));
-  }
-  if (t.border > 0) {
+  if (t.border > 0)
     words.proven.push_back(fmt::format("In {} boxes the same is proven for a piece that may reach beyond the search domain.",
                                        grouped(t.border)));
-  }
   if (t.partial > 0)
     words.unproven.push_back(fmt::format("In {} boxes only independent equations are proven to hold.", grouped(t.partial)));
-  if (t.undecided > 0) {
+  if (t.undecided > 0)
     words.unproven.push_back(
         fmt::format("{} boxes are undecided: they may or may not hold solutions.", grouped(t.undecided)));
-  }
   words.unproven.push_back(fmt::format("Nothing is claimed about values of {} between those shown.", options.constant));
   const std::string edges =
       t.finest == t.coarsest ? fmt::format("{:g}", t.finest) : fmt::format("{:g} to {:g}", t.finest, t.coarsest);
@@ -282,6 +276,14 @@ std::string family_page(const std::vector<FamilyMember>& members, const FamilyOp
   page["payloads"] = std::move(payloads);
   page["script"] = std::string(kFamilyScript);
   return filled(kFamilyTemplate, page);
+}
+
+std::string family_summary(const std::string& model, const std::string& constant, const std::string& page,
+                           const std::vector<FamilyMember>& members, bool complete) {
+  const Json list = each(members, [](const FamilyMember& member) {
+    return Json{{"value", member.value}, {"sets", summaries(member.sets, member.files)}};
+  });
+  return Json{{"model", model}, {"constant", constant}, {"page", page}, {"complete", complete}, {"members", list}}.dump(2);
 }
 
 }  // namespace corank::report

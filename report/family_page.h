@@ -15,6 +15,9 @@
 
 namespace corank::report {
 
+/// So much coarser than in corank solve is the default of sigma: there are many pictures on the page, and they are small.
+inline constexpr double kFamilyCoarser = 2;
+
 struct FamilyMember {
   std::string value;               ///< of the constant, in the model language
   symbolic::Mechanism mechanism;   ///< with that value
@@ -33,5 +36,10 @@ struct FamilyOptions {
 
 /// Requires a member. Throws std::invalid_argument where an axis is no coordinate, or the members' sets differ.
 std::string family_page(const std::vector<FamilyMember>& members, const FamilyOptions& options);
+
+/// What stands on it, as JSON: {"model", "constant", "page", "complete", "members": [{"value", "sets": [{…, "file"}]}]}, of
+/// each set what corank solve --json prints of it. `page`: the page's file.
+std::string family_summary(const std::string& model, const std::string& constant, const std::string& page,
+                           const std::vector<FamilyMember>& members, bool complete);
 
 }  // namespace corank::report

@@ -10,6 +10,8 @@
 namespace corank::report {
 namespace {
 
+constexpr const char* kFolder = "figures";
+
 void show(const FiguresRun& run, const std::string& figure) {
   if (run.show) run.show("figures: " + figure);
 }
@@ -19,7 +21,7 @@ void show(const FiguresRun& run, const std::string& figure) {
 std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first) {
   std::vector<std::string> axes;
   const auto add = [&](const std::string& name) {
-    const symbolic::Coordinate& c = mechanism.coordinates()[static_cast<std::size_t>(mechanism.find_coordinate(name))];
+    const symbolic::Coordinate& c = mechanism.coordinates()[mechanism.find_coordinate(name)];
     const bool known = std::find(axes.begin(), axes.end(), name) != axes.end();
     if (!known && axes.size() < 2 && !is_fixed(c)) axes.push_back(name);
   };
@@ -32,6 +34,7 @@ std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, con
 Figures write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
                       std::vector<PictureSource> sources, const FiguresRun& run) {
   std::erase_if(sources, [](const PictureSource& source) { return source.count() == 0; });
+  std::filesystem::create_directories(folder / kFolder);
   Figures figures;
   for (const auto& [name, first] :
        {std::pair{"output-portrait", &mechanism.outputs()}, std::pair{"input-portrait", &mechanism.inputs()}}) {
@@ -44,7 +47,7 @@ Figures write_figures(const std::filesystem::path& folder, const symbolic::Mecha
     const Picture picture = make_picture(sources, options);
     for (const char* extension : {".svg", ".pdf"}) {
       if (extension == std::string_view(".pdf") && !can_write_pdf()) continue;
-      figures.files.push_back(std::string(name) + extension);
+      figures.files.push_back(std::string(kFolder) + "/" + name + extension);
       write_portrait(folder / figures.files.back(), picture, {});
     }
   }
@@ -62,7 +65,10 @@ Figures write_family_figures(const std::filesystem::path& folder, const std::vec
     show(run, fmt::format("{} of {}", pictures.size(), members.size()));
     pictures.push_back(make_picture(sources, plane));
   }
-  return {write_small_multiples(folder, pictures, titles), false};
+  std::filesystem::create_directories(folder / kFolder);
+  std::vector<std::string> files = write_small_multiples(folder / kFolder, pictures, titles);
+  for (std::string& name : files) name = std::string(kFolder) + "/" + name;
+  return {files, false};
 }
 
 std::string member_file(std::size_t member, std::size_t members, const std::string& set) {

@@ -16,7 +16,7 @@ namespace corank::report {
 /// where the mechanism has no two.
 std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first);
 
-/// The names of the files; `stopped`: an interrupt has left some out.
+/// The files, "figures/NAME", below the folder of their page; `stopped`: an interrupt has left some out.
 struct Figures {
   std::vector<std::string> files;
   bool stopped = false;
@@ -30,8 +30,8 @@ struct FiguresRun {
   bool stopped() const { return stop && *stop; }
 };
 
-/// Writes output-portrait and input-portrait, each as .svg and, where can_write_pdf(), .pdf, into a folder that exists;
-/// nothing where there is no box or no plane.
+/// Writes output-portrait and input-portrait, each as .svg and, where can_write_pdf(), .pdf; `folder` is that of their
+/// page. Nothing where there is no box or no plane.
 Figures write_figures(const std::filesystem::path& folder, const symbolic::Mechanism& mechanism,
                       std::vector<PictureSource> sources, const FiguresRun& run);
 

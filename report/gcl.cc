@@ -1,4 +1,4 @@
-#include "corank/report/gcl.h"
+#include "corank/report/picture.h"
 
 #include <fmt/format.h>
 
@@ -54,13 +54,12 @@ std::string identifier(std::string text) {
 
 }  // namespace
 
-std::string to_gcl(const Picture& picture, const GclOptions& options) {
+std::string to_gcl(const Picture& picture, const std::string& name, const std::string& comment) {
   if (is_empty(picture)) throw result::ResultFileError("there are no boxes to draw; expected at least one");
   const bool flat = picture.axes.size() == 2;
-  std::string out =
-      fmt::format("# Boxes in {} coordinates, for Geomview\n# {}\n", picture.axes.size(), plain(options.comment));
+  std::string out = fmt::format("# Boxes in {} coordinates, for Geomview\n# {}\n", picture.axes.size(), plain(comment));
   out += "(progn (normalization World all)\n(bbox-draw World no)\n(backcolor World 1.0 1.0 1.0))\n";
-  out += fmt::format("(geometry {} {{ LIST\n", identifier(options.name));
+  out += fmt::format("(geometry {} {{ LIST\n", identifier(name));
   for (const PictureLayer& layer : picture.layers) {
     if (layer.boxes.empty()) continue;
     out += fmt::format("# {}: {}\n", plain(layer.label), layer.boxes.size());

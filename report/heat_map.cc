@@ -3,21 +3,12 @@
 #include <algorithm>
 #include <array>
 
-#include "corank/report/layout_svg.h"
+#include "corank/report/layout.h"
 
 namespace corank::report {
 namespace {
 
 constexpr double kLeft = 46, kTop = 22, kWidth = 300, kScaleWidth = 12, kScaleGap = 14, kText = 8.5, kLine = 0.5;
-constexpr AxesStyle kAxes{.line = kLine,
-                          .tick = 3,
-                          .numbers = kText,
-                          .below = 12,
-                          .beside = 5,
-                          .lower = 3,
-                          .names = kText,
-                          .name_below = 24,
-                          .name_x = 12};
 constexpr int kShades = 64;
 
 // Dark blue, green, yellow: its lightness grows evenly, so it can be read in grey as well.
@@ -43,7 +34,7 @@ std::string to_svg(const HeatMap& map) {
                             out.y_at(c.y.lo()) - out.y_at(c.y.hi()), between(kStops, most > 0 ? c.value / most : 0), 1});
   add_axes(out, {math_label(map.x_name), math_label(map.y_name)},
            {ticks(map.x_range.lo(), map.x_range.hi(), false, 7), ticks(map.y_range.lo(), map.y_range.hi(), false, 7)},
-           kAxes);
+           {.line = kLine, .numbers = kText, .names = kText, .below = 12, .name_below = 24, .name_x = 12});
   text(kLeft, kTop - 8, Layout::Anchor::start, map.title);
 
   const double scale = right + kScaleGap;

@@ -1,11 +1,16 @@
 #include "corank/report/layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "corank/core/check.h"
+#include "corank/symbolic/display_name.h"
 
 namespace corank::report {
 namespace {
@@ -109,6 +114,29 @@ void add_hatches(const Picture& picture, Layout& out) {
   }
 }
 
+// With a real minus sign.
+std::string number_text(double x, int decimals) {
+  std::string text = fmt::format("{:.{}f}", x, decimals);
+  if (text.find_first_not_of("-0.") == std::string::npos) return fmt::format("{:.{}f}", 0.0, decimals);
+  return text.front() == '-' ? "−" + text.substr(1) : text;
+}
+
+// k·π/n: "−π/2", "3π/4".
+std::string pi_text(long k, long n) {
+  if (k == 0) return "0";
+  const long common = std::gcd(k, n), top = std::labs(k / common), bottom = n / common;
+  const std::string text = (k < 0 ? "−" : "") + (top == 1 ? std::string() : std::to_string(top)) + "π";
+  return bottom == 1 ? text : text + "/" + std::to_string(bottom);
+}
+
+std::vector<Tick> multiples(double lo, double hi, double step, const std::function<std::string(long)>& text) {
+  std::vector<Tick> result;
+  const double slack = 1e-6 * step;
+  for (long k = std::lround(std::ceil((lo - slack) / step)); static_cast<double>(k) * step <= hi + slack; ++k)
+    result.push_back({std::clamp(static_cast<double>(k) * step, lo, hi), text(k)});
+  return result;
+}
+
 }  // namespace
 
 std::pair<double, double> centre(const GridPolygon& p) {
@@ -174,14 +202,14 @@ Layout lay_out(const Picture& picture, const PortraitOptions& options, const Tex
   if (options.title.empty() && !options.legend) out.frame_y += 0.5 * kTickSize;
   add_axes(out, {axis_label(picture.axes[0]), axis_label(picture.axes[1])}, {x_ticks, y_ticks},
            {.line = kLineWidth,
-            .tick = kTickLength,
             .numbers = kTickSize,
-            .below = kTickLength + kTickSize,
-            .beside = kTickLength + 2,
-            .lower = 0.36 * kTickSize,
             .names = kNameSize,
+            .below = kTickLength + kTickSize,
             .name_below = kTickLength + kTickSize + kGap + kNameSize,
-            .name_x = out.frame_x - kTickLength - 2 - y_tick_width - 4});
+            .name_x = out.frame_x - kTickLength - 2 - y_tick_width - 4,
+            .tick = kTickLength,
+            .beside = kTickLength + 2,
+            .lower = 0.36 * kTickSize});
   out.height = out.frame_y + out.frame_height + kTickLength + kTickSize + kGap + kNameSize + 4;
   add_hatches(picture, out);
   const Scale across{x.lo(), columns / x.width(), columns}, up{y.lo(), rows / y.width(), rows};
@@ -194,6 +222,42 @@ Layout lay_out_legend(const Picture& picture, double width, const TextWidth& tex
   out.width = width;
   out.height = add_legend(picture, text_width, kEdge, width - kEdge, 0, out);
   return out;
+}
+
+Label math_label(const std::string& name) {
+  const symbolic::DisplayName shown = symbolic::display_name(name);
+  const bool greek = !name.starts_with(shown.base);
+  const bool letter = shown.base.size() == 1 && std::isalpha(static_cast<unsigned char>(shown.base[0])) != 0;
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0; };
+  if (!(greek || letter) || shown.subscript.size() > 6 || !std::ranges::all_of(shown.subscript, is_plain)) return {{name}};
+  Label label{{shown.base, true, false}};
+  if (!shown.subscript.empty()) label.push_back({shown.subscript, false, true});
+  return label;
+}
+
+Label axis_label(const PictureAxis& axis) {
+  Label label = math_label(axis.name);
+  if (!axis.function.empty()) label.insert(label.begin(), {axis.function + " "});
+  if (axis.angle) label.push_back({" (rad)"});
+  return label;
+}
+
+std::vector<Tick> ticks(double lo, double hi, bool angle, int count) {
+  const double rough = (hi - lo) / std::max(1, count);
+  if (angle && hi - lo > 2) {  // multiples of π/4, π/2, π, 2π …
+    long numerator = 1, denominator = 4;
+    while (std::numbers::pi * static_cast<double>(numerator) / static_cast<double>(denominator) < 0.8 * rough)
+      denominator > 1 ? denominator /= 2 : numerator *= 2;
+    return multiples(lo, hi, std::numbers::pi * static_cast<double>(numerator) / static_cast<double>(denominator),
+                     [=](long k) { return pi_text(k * numerator, denominator); });
+  }
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  const double digit = rough / power < 1.5 ? 1 : rough / power < 3.5 ? 2 : rough / power < 7.5 ? 5 : 10;
+  const double step = digit * power;
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  if (decimals <= 6 && std::max(std::fabs(lo), std::fabs(hi)) < 1e6)
+    return multiples(lo, hi, step, [=](long k) { return number_text(static_cast<double>(k) * step, decimals); });
+  return multiples(lo, hi, step, [=](long k) { return fmt::format("{:.6g}", static_cast<double>(k) * step); });
 }
 
 }  // namespace corank::report

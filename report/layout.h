@@ -93,9 +93,9 @@ std::vector<Tick> ticks(double lo, double hi, bool angle, int count);
 
 void add_frame(Layout& out, double x0, double y0, double x1, double y1, double line);
 struct AxesStyle {
-  double line, tick;                     ///< a line's width, a tick's length
-  double numbers, below, beside, lower;  ///< their size; of their base lines: how far below, beside the frame, below a tick
-  double names, name_below, name_x;      ///< their size; how far below the frame the one is, where from the left the other
+  double line, numbers, names;             ///< a line's width; sizes of the numbers and of the axes' names
+  double below, name_below, name_x;        ///< base lines: numbers, a name below the frame; the other name from the left
+  double tick = 3, beside = 5, lower = 3;  ///< a tick's length; how far numbers are beside the frame, and below a tick
 };
 /// The frame, the ticks of both axes with their numbers, and the axes' names.
 void add_axes(Layout& out, const std::array<Label, 2>& names, const std::array<std::vector<Tick>, 2>& marks,
@@ -105,5 +105,26 @@ void add_axes(Layout& out, const std::array<Label, 2>& names, const std::array<s
 /// ResultFileError where the file cannot be written.
 void write_drawing(const std::filesystem::path& path, const Layout& drawing, const std::string& title,
                    double dots_per_inch = 300);
+
+/// Text stays text, a shape is one path of whole numbers.
+std::string to_svg(const Layout& drawing, const std::string& title);
+
+/// Several on one page, each with its upper left corner at (x, y).
+struct PlacedDrawing {
+  double x = 0, y = 0;
+  Layout drawing;
+};
+std::string to_svg(const std::vector<PlacedDrawing>& drawings, const std::string& title);
+
+// What knows a font: widths of texts for every picture, and the formats that are drawn with it. Cairo does that
+// (canvas_cairo.cc). Without it (canvas_missing.cc) widths are those of Helvetica, the font that pictures ask for, and .svg
+// is the only format; CMake chooses.
+
+/// Widths at any size, whatever the resolution.
+TextWidth font_widths();
+
+/// The bytes of the file `name`. Throw ResultFileError where they cannot be made.
+std::string to_pdf(const Layout& drawing, const std::string& title, const std::string& name);
+std::string to_png(const Layout& drawing, double dots_per_inch, const std::string& name);
 
 }  // namespace corank::report

@@ -1,4 +1,4 @@
-#include "corank/report/layout_svg.h"
+#include "corank/report/layout.h"
 
 #include <fmt/format.h>
 
@@ -111,14 +111,13 @@ void add_drawing(pugi::xml_node svg, const Layout& drawing) {
   std::string lines;
   for (const Layout::Line& l : drawing.lines)
     lines += fmt::format("M{} {}L{} {}", number(l.x0), number(l.y0), number(l.x1), number(l.y1));
-  if (!lines.empty()) {
+  if (!lines.empty())
     append(svg, "path",
            {{"d", lines},
             {"stroke", "black"},
             {"fill", "none"},
             {"stroke-linecap", "square"},
             {"stroke-width", number(drawing.lines[0].width)}});
-  }
   for (const Layout::Text& text : drawing.texts) add_text(svg, text);
 }
 

@@ -4,7 +4,6 @@
 
 #include "corank/report/page_assets.h"
 #include "corank/report/page_data.h"
-#include "corank/report/page_sections.h"
 #include "corank/report/page_words.h"
 #include "corank/report/template_data.h"
 #include "corank/result/words.h"
@@ -61,10 +60,9 @@ std::string overridden_html(const result::Result& result) {
 
 std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<SetView>& views,
                         const PageOptions& options) {
-  if (mechanism.is_plain_system()) {
+  if (mechanism.is_plain_system())
     throw symbolic::ModelError({mechanism.name(), 0, 0}, "the model names no inputs and outputs",
                                "a mechanism, with [INPUTS] and [OUTPUTS]");
-  }
   const symbolic::Derivation derivation = derive(mechanism);
   TemplateData cards = empty_list(), runs = empty_list(), payloads = empty_list();
   bool complete = true;
@@ -110,6 +108,13 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["hasFigures"] = !options.figures.empty();
   page["hasFiles"] = !options.files.empty();
   return filled(kPageTemplate, page);
+}
+
+std::string page_summary(const std::string& model, const std::string& page, const PageOptions& options,
+                         const std::vector<SetView>& views, bool complete) {
+  const Json sets = summaries(views, options.files);
+  return Json{{"model", model}, {"page", page}, {"figures", options.figures}, {"complete", complete}, {"sets", sets}}.dump(
+      2);
 }
 
 }  // namespace corank::report

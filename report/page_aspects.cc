@@ -1,18 +1,63 @@
 #include "corank/report/page_aspects.h"
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
-#include "corank/report/aspects_picture.h"
+#include <algorithm>
+
 #include "corank/report/page_data.h"
+#include "corank/report/template_data.h"
 
 namespace corank::report {
-
 namespace {
+
+// "1  + − +": of each aspect its number and the signs of the factors.
+std::vector<std::string> aspect_labels(const analyze::Aspects& aspects) {
+  std::vector<std::string> labels;
+  for (const std::vector<int>& signs : aspects.aspects.signs) {
+    labels.push_back(std::to_string(labels.size() + 1) + " ");
+    for (const int sign : signs) labels.back() += sign > 0 ? " +" : " −";
+  }
+  return labels;
+}
 
 PageAspects not_known(const std::string& why) { return {"Not known: " + why + ".", {}, {}, {}}; }
 
 }  // namespace
+
+std::vector<std::string> drawn_coordinates(const symbolic::Mechanism& model) {
+  std::vector<std::string> result;
+  for (const auto& names : {model.outputs(), model.inputs()}) {
+    std::vector<std::string> two;
+    for (const std::string& name : names)
+      for (const symbolic::Coordinate& c : model.coordinates())
+        if (c.name == name && !is_fixed(c) && two.size() < 2) two.push_back(name);
+    if (two.size() == 2) result.insert(result.end(), two.begin(), two.end());
+  }
+  return result;
+}
+
+RegionMap aspects_picture(const std::string& model, const analyze::Aspects& aspects) {
+  RegionMap map;
+  map.title = fmt::format("{}: {} aspects", model, aspects.aspects.at_least);
+  if (!aspects.aspects.exact()) map.title += " at least";
+  if (!aspects.forward_factors.empty() || !aspects.inverse_factors.empty())
+    map.title += ", by the signs of the factors of det L_y and det L_z";
+  map.labels = aspect_labels(aspects);
+  const analyze::PieceDrawing& drawing = *aspects.drawing;
+  for (std::size_t c = 0; c + 1 < drawing.coordinates.size(); c += 2) {
+    RegionMap::Plane& plane = map.planes.emplace_back();
+    plane.x_name = drawing.coordinates[c], plane.y_name = drawing.coordinates[c + 1];
+    plane.x_angle = drawing.is_angle[c], plane.y_angle = drawing.is_angle[c + 1];
+    for (const auto& piece : drawing.pieces) {
+      auto& region = plane.regions.emplace_back();
+      for (const auto& polygon : piece) {
+        auto& points = region.emplace_back();
+        for (const auto& point : polygon) points.push_back({point[c], point[c + 1]});
+      }
+    }
+  }
+  return map;
+}
 
 std::optional<PageAspects> page_aspects(const study::Question& question, const std::vector<const result::Result*>& results,
                                         int threads, const std::string& limit, solve::Control& control) {
@@ -38,7 +83,7 @@ std::optional<PageAspects> page_aspects(const study::Question& question, const s
 
 std::string aspects_json(const PageAspects& aspects) {
   if (aspects.places.empty() || aspects.labels.empty()) return "null";
-  nlohmann::ordered_json json = {{"labels", aspects.labels}, {"colours", nlohmann::ordered_json::array()}};
+  Json json = {{"labels", aspects.labels}, {"colours", Json::array()}};
   for (std::size_t k = 0; k < aspects.labels.size(); ++k) json["colours"].push_back(region_color(k));
   std::vector<std::uint8_t> bytes;
   for (const int place : aspects.places) {

@@ -1,4 +1,4 @@
-// What a report's page has of a mechanism's aspects.
+// What is drawn of a mechanism's aspects, and what a report's page has of them.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corank/analyze/aspects.h"
+#include "corank/report/region_map.h"
 
 namespace corank::report {
 
@@ -24,5 +25,11 @@ std::optional<PageAspects> page_aspects(const study::Question& question, const s
 /// For the page's script: of each aspect its label and its colour, and two bytes for each box of C-space, its aspect's
 /// number from 1; 0: none. "null" without places.
 std::string aspects_json(const PageAspects& aspects);
+
+/// The first two outputs, and the first two inputs, that are not held.
+std::vector<std::string> drawn_coordinates(const symbolic::Mechanism& model);
+
+/// The aspects in the plane of the first two of these coordinates and in that of the others. Requires aspects.drawing.
+RegionMap aspects_picture(const std::string& model, const analyze::Aspects& aspects);
 
 }  // namespace corank::report

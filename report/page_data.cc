@@ -6,20 +6,41 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "corank/report/drawing_tree.h"
 #include "corank/report/set_look.h"
 #include "corank/report/template_data.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/display_name.h"
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using symbolic::Expression;
+using Kind = Expression::Kind;
+
+std::string operation(const Expression& e) {
+  switch (e.kind()) {
+    case Kind::sum: return "+";
+    case Kind::product: return "*";
+    case Kind::quotient: return "/";
+    case Kind::power: return "^";
+    case Kind::negation: return "-";
+    default: return e.name();
+  }
+}
+
+// An expression of a drawing: a number, where it has a value without coordinates; "name" for a coordinate; ["+", …],
+// ["*", …], ["/", a, b], ["^", a, b], ["-", a], ["sin", a] …
+Json tree(const Expression& e, const ConstantValues& constants) {
+  if (const double x = evaluate(e, constants); !std::isnan(x)) return x;
+  if (e.kind() == Kind::symbol) return e.name();
+  Json node = {operation(e)};
+  for (const Expression& operand : e.operands()) node.push_back(tree(operand, constants));
+  return node;
+}
 
 static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
 
@@ -48,16 +69,16 @@ Json coordinates(const symbolic::Mechanism& mechanism, const System& system) {
 Json drawing(const symbolic::Mechanism& mechanism) {
   const symbolic::Drawing& d = mechanism.drawing();
   const ConstantValues constants = constant_values(mechanism);
-  const auto tree = [&](const symbolic::Expression& e) { return Json::parse(drawing_tree(e, constants)); };
+  const auto tree_of = [&](const Expression& e) { return tree(e, constants); };
   const auto point = [&](const symbolic::DrawingPoint& p) {
-    Json entry = {{"name", p.name}, {"label", label(p.name)}, {"at", each(p.coordinates, tree)}};
-    if (!p.velocity.empty()) entry["moves"] = each(p.velocity, tree);
+    Json entry = {{"name", p.name}, {"label", label(p.name)}, {"at", each(p.coordinates, tree_of)}};
+    if (!p.velocity.empty()) entry["moves"] = each(p.velocity, tree_of);
     return entry;
   };
   const auto part = [&](const symbolic::DrawingPart& p) {
     Json entry = {{"kind", to_string(p.kind)},
                   {"points", each(p.points, [&](const std::string& name) { return d.find(name); })}};
-    if (p.has_radius()) entry["radius"] = tree(p.radius);
+    if (p.has_radius()) entry["radius"] = tree_of(p.radius);
     if (!p.colour.empty()) entry["colour"] = p.colour;
     return entry;
   };
@@ -156,6 +177,12 @@ std::string sides_payload(std::span<const CoverBox> boxes, std::size_t outputs) 
 }
 
 }  // namespace
+
+ConstantValues constant_values(const symbolic::Mechanism& mechanism) {
+  ConstantValues values;
+  for (const symbolic::Constant& c : mechanism.constants()) values[c.name] = evaluate(c.value, values);
+  return values;
+}
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   constexpr const char* kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -4,6 +4,7 @@
 // outward to floats, so a box of the page holds the box of the result file and is at most one float wider on each side.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,10 @@
 #include "corank/symbolic/velocity_equation.h"
 
 namespace corank::report {
+
+/// Constants in doubles: for pictures, not for proofs.
+using ConstantValues = std::map<std::string, double>;
+ConstantValues constant_values(const symbolic::Mechanism& mechanism);
 
 /// RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);

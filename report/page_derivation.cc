@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "corank/report/page_sections.h"
+#include "corank/report/page.h"
 #include "corank/report/page_words.h"
 #include "corank/result/verification.h"
 #include "corank/result/words.h"

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "corank/report/page_sections.h"
+#include "corank/report/page.h"
 #include "corank/report/page_words.h"
-#include "corank/result/exact_angle.h"
 #include "corank/result/tallies.h"
 #include "corank/result/words.h"
 #include "corank/symbolic/display_name.h"
@@ -95,7 +94,7 @@ std::string table_html(const SetView& view) {
     const bool types = result.cover.types.asked != 0;
     html += fmt::format("<div class=\"scroll\"><table><thead><tr><th>point</th>{}{}<th>verdict</th></tr></thead><tbody>",
                         heads(shown), types ? "<th>types</th>" : "");
-    for (std::size_t k = 0; k < points.size(); ++k) {
+    for (std::size_t k = 0; k < points.size(); ++k)
       html += fmt::format(
           "<tr data-point=\"{0}\"><td><button type=\"button\" class=\"show-point\">{1}</button></td>{2}{3}"
           "<td><span class=\"verdict {4}\">{4}</span></td></tr>",
@@ -104,7 +103,6 @@ std::string table_html(const SetView& view) {
               values(result, points[k], result.configuration_size),
               [&](const Value& v) { return "<td>" + cell(result, v, k) + "</td>"; }, ""),
           types ? types_cell(result.cover, points[k]) : "", to_string(points[k].verdict));
-    }
     html += "</tbody></table></div>";
   }
   return html + kernel_points_html(result, shown) + "</section>";

@@ -4,10 +4,7 @@
 
 #include "corank/report/drawn_boxes.h"
 #include "corank/report/set_look.h"
-#include "corank/result/assembled.h"
-#include "corank/result/domain_notes.h"
-#include "corank/result/locus_words.h"
-#include "corank/result/motion_words.h"
+#include "corank/result/sentences.h"
 #include "corank/result/summary.h"
 #include "corank/result/tallies.h"
 #include "corank/result/words.h"
@@ -70,23 +67,20 @@ void say_points(const result::Result& result, SetWords& words) {
   }
   if (border > 0) words.finding += fmt::format(", {} at the border of the search domain", border);
   if (others > 0) words.finding += fmt::format(" and {}", counted(others, "undecided place"));
-  if (isolated > 0) {
+  if (isolated > 0)
     words.proven.push_back(isolated == 1 ? "One small box holds exactly one solution."
                                          : grouped(isolated) + " small boxes hold exactly one solution each, all distinct.");
-  }
   if (exact > 0)
     words.proven.push_back(fmt::format("{} known exactly.", exact == 1 ? "One point is" : grouped(exact) + " points are"));
-  if (border > 0) {
+  if (border > 0)
     words.unproven.push_back(
         fmt::format("It is not proven that {} inside the search domain.",
                     border == 1 ? "the solution at its border lies" : "the solutions at its border lie"));
-  }
-  if (others > 0) {
+  if (others > 0)
     words.unproven.push_back(
         fmt::format("At {} nothing is proven: {} may hold any number of solutions, or none. A double solution looks like "
                     "this.",
                     counted(others, "place"), others == 1 ? "it" : "each"));
-  }
 }
 
 /// Ranges that cut the set, and what keeps boxes at the border.
@@ -107,10 +101,9 @@ void say_kernel(const Cover& cover, SetWords& words) {
                                      grouped(how_many(cover.boxes, [](const auto& b) { return b.kernel_at_most == 1; })),
                                      grouped(cover.boxes.size())));
   const std::size_t larger = how_many(cover.exact_points, [](const auto& p) { return p.corank > 1; });
-  if (larger > 0) {
+  if (larger > 0)
     words.proven.push_back(fmt::format("At {} it has dimension 2 or more; {} known exactly.", counted(larger, "point"),
                                        larger == 1 ? "it is" : "they are"));
-  }
 }
 
 /// Of a workspace boundary: where the output can pass.
@@ -140,41 +133,36 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   words.finding = fmt::format("{}: {}", shape(cover.dimension), boxes_text(cover.boxes.size()));
   if (found.counted) words.finding += fmt::format(" in {} of touching boxes", counted(found.count, "component"));
   const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
-  if (regular > 0) {
+  if (regular > 0)
     words.proven.push_back(fmt::format(
         "In {} of {} boxes ({}) the {} is one smooth piece: for every value of {} free coordinate{} there is "
         "exactly one solution.",
         grouped(regular), grouped(cover.boxes.size()), percentage(regular, cover.boxes.size()),
         result.parts.size() > 1 ? "part that it is of" : "set", cover.dimension, cover.dimension == 1 ? "" : "s"));
-  }
-  if (boundary > 0) {
+  if (boundary > 0)
     words.proven.push_back(
         fmt::format("In {} the same is proven for a piece that may reach beyond the search domain.", boxes_text(boundary)));
-  }
-  if (found.count > 1 && cover.complete()) {
+  if (found.count > 1 && cover.complete())
     words.proven.push_back(fmt::format("No two of the {} components are connected; {} of them {} proven to hold solutions.",
                                        found.count, found.with_proven_solution,
                                        found.with_proven_solution == 1 ? "is" : "are"));
-  }
   words.unproven.push_back(found.counted ? "It is not proven that the solutions in one component form one piece: components "
                                            "are counted by boxes that touch."
                                          : "The components were not counted, because the run was ended.");
-  if (const std::size_t partial = cover.count(Verdict::partial); partial > 0) {
+  if (const std::size_t partial = cover.count(Verdict::partial); partial > 0)
     words.unproven.push_back(
         fmt::format("In {} only independent equations are proven to hold, the others within a tolerance of {:g}.",
                     boxes_text(partial), cover.tolerance));
-  }
   say_kernel(cover, words);
   say_passages(result, words);
   say_parts(result, words);
   const std::size_t explained =
       how_many(cover.boxes, [](const auto& b) { return b.verdict == Verdict::undecided && b.point >= 0; });
   const std::size_t open = cover.count(Verdict::undecided) - explained;
-  if (explained > 0) {
+  if (explained > 0)
     words.unproven.push_back(
         fmt::format("{} undecided around a point that is known exactly: it is open whether {} anything else.",
                     boxes_are(explained), explained == 1 ? "it holds" : "they hold"));
-  }
   if (open > 0)
     words.unproven.push_back(fmt::format("{} undecided: it is open whether there are solutions.", boxes_are(open)));
 }
@@ -280,10 +268,9 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
                                          result.stopped.empty() ? "ended early" : "was stopped by " + result.stopped,
                                          boxes_text(cover.count(Verdict::pending))));
   }
-  if (cover.complete() && !result.stopped.empty()) {
+  if (cover.complete() && !result.stopped.empty())
     words.unproven.push_back(
         fmt::format("The work on this set was stopped by {}: more could be proven about its boxes.", result.stopped));
-  }
   if (cover.dimension == 0) {
     say_points(result, words);
   } else {

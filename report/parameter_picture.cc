@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "corank/report/canvas.h"
+#include "corank/report/layout.h"
 
 namespace corank::report {
 namespace {
@@ -117,15 +117,7 @@ class Drawing {
   void add_frame() {
     add_axes(out_, {math_label(in_.x_name), math_label(in_.y_name)},
              {ticks(in_.x_range.lo(), in_.x_range.hi(), false, 7), ticks(in_.y_range.lo(), in_.y_range.hi(), false, 7)},
-             {.line = kLine,
-              .tick = 3,
-              .numbers = kText,
-              .below = 13,
-              .beside = 5,
-              .lower = 3,
-              .names = kTitle,
-              .name_below = 27,
-              .name_x = 13});
+             {.line = kLine, .numbers = kText, .names = kTitle, .below = 13, .name_below = 27, .name_x = 13});
     out_.texts.push_back({kLeft, kTop - 9, kTitle, Layout::Anchor::start, false, {{in_.title + ", " + in_.what}}});
   }
 

@@ -2,14 +2,38 @@
 // doc/paths.md describes it for users.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
-#include "corank/report/path_view.h"
+#include "corank/analyze/path.h"
+#include "corank/core/system.h"
+#include "corank/core/tube.h"
 #include "corank/report/set_view.h"
 #include "corank/symbolic/mechanism.h"
 
 namespace corank::report {
+
+/// A path between two configurations, or the proof that there is none, as the page shows it.
+struct PathView {
+  analyze::Avoid avoid = analyze::Avoid::forward;
+  analyze::Path path;
+  double radius_asked = 0;
+  System system;  ///< C-space: the variables of boxes and tube
+  /// At the path's two ends.
+  std::array<std::vector<analyze::PathFinder::Sign>, 2> signs;
+  /// Of the ends and of each node: the model's coordinates, in doubles, angles along a tube without jumps.
+  std::vector<std::string> names;
+  std::array<std::vector<double>, 2> ends;
+  std::vector<std::vector<double>> nodes;
+};
+
+PathView path_view(const analyze::PathFinder& finder, const analyze::Path& path);
+
+/// A JSON object for the page's script: "status", the singularities "avoided", the "ends" and, of a tube, "nodes", "pieces"
+/// and "radii", in the variables `order` (System::variables' names). Throws std::invalid_argument where the view has none of
+/// such a name.
+std::string path_json(const PathView& view, const std::vector<std::string>& order);
 
 struct PathPageOptions {
   std::string command;                 ///< that made it; shown

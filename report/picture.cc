@@ -4,15 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 
-#include "corank/report/drawn_angle.h"
+#include "corank/certify/angle.h"
 #include "corank/symbolic/set_definition.h"
 
 namespace corank::report {
 namespace {
+
+double rounded_down(long double x) {
+  const auto nearest = static_cast<double>(x);
+  return static_cast<long double>(nearest) > x ? std::nextafter(nearest, -HUGE_VAL) : nearest;
+}
+
+// The double below all that x may be.
+std::optional<double> below(long double x) {
+  const long double error = std::fabs(x) * 0x1p-60L;
+  const double least = rounded_down(x - error);
+  if (least != rounded_down(x + error)) return std::nullopt;
+  return least;
+}
 
 constexpr double kTurn = 2 * std::numbers::pi;
 const Interval kCircle(-std::numbers::pi, std::numbers::pi);
@@ -162,7 +177,28 @@ void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coo
   }
 }
 
+SetStyle set_style(const PictureSource& source) {
+  const symbolic::SetDefinition& set = symbolic::definition(source.set);
+  // A surface is seen through; a curve of that colour would be too faint.
+  return {*look(set).label ? look(set).label : std::filesystem::path(source.file).stem().string(), set_color(source.set),
+          set.is_cspace() && source.dimension > 1 ? 0.4 : 1.0};
+}
+
 }  // namespace
+
+Interval drawn_angle(const Interval& c, const Interval& s, const Interval& range) {
+  // Without the origin and the cut between −π and π the least and the greatest angle are at corners.
+  const bool simple = c.lo() > 0 || s.lo() > 0 || s.hi() < 0;
+  if (simple && std::numeric_limits<long double>::digits >= 64) {
+    const auto at = [](double x, double y) {
+      return std::atan2(y == 0 ? 0.0L : static_cast<long double>(y), static_cast<long double>(x));  // of −0 it would be −0
+    };
+    const auto [low, high] = std::minmax({at(c.lo(), s.lo()), at(c.lo(), s.hi()), at(c.hi(), s.lo()), at(c.hi(), s.hi())});
+    const std::optional<double> lower = below(low), upper = below(-high);
+    if (lower && upper && range.contains(Interval(*lower, -*upper))) return {*lower, -*upper};
+  }
+  return certify::angle_enclosure(c, s, range);
+}
 
 PictureSource picture_view(const result::Result& result, const std::string& file) {
   PictureSource source{file, result.set, {}, result.angles, result.cover.dimension};
@@ -219,15 +255,51 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
       add_layers(*source, styles[k], coordinates, options, {}, picture.layers);
     if (passes && coordinates.size() == 2) add_hatches(*source, coordinates, options.axes, picture.hatches);
   }
-  if (options.color == ColorScheme::verdict) {
+  if (options.color == ColorScheme::verdict)
     std::stable_sort(picture.layers.begin(), picture.layers.end(),
                      [](const PictureLayer& a, const PictureLayer& b) { return rank(a) < rank(b); });
-  }
   return picture;
 }
 
 bool is_empty(const Picture& picture) {
   return std::all_of(picture.layers.begin(), picture.layers.end(), [](const PictureLayer& l) { return l.boxes.empty(); });
 }
+
+std::vector<SetStyle> set_styles(const std::vector<const PictureSource*>& sources) {
+  static constexpr std::array<Color, 4> kOthers{
+      {{0.35, 0.45, 0.58}, {0.85, 0.50, 0.10}, {0.15, 0.55, 0.40}, {0.55, 0.35, 0.25}}};
+  std::vector<SetStyle> styles;
+  for (const PictureSource* source : sources) styles.push_back(set_style(*source));
+  std::size_t others = 0;
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const auto same = [&](const PictureSource* s) { return s->set == sources[k]->set; };
+    if (!symbolic::definition(sources[k]->set).set) {
+      styles[k].color = kOthers[others++ % kOthers.size()];
+    } else if (std::count_if(sources.begin(), sources.end(), same) > 1) {
+      const double light =
+          1 - std::pow(0.65, std::count_if(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(k), same));
+      styles[k].label += " (" + std::filesystem::path(sources[k]->file).stem().string() + ")";
+      for (double* channel : {&styles[k].color.red, &styles[k].color.green, &styles[k].color.blue})
+        *channel += light * (0.95 - *channel);
+    }
+  }
+  return styles;
+}
+
+Color verdict_color(std::optional<Verdict> verdict) {
+  if (!verdict) return {0, 0, 1};
+  switch (*verdict) {
+    case Verdict::regular: return {0, 0, 1};
+    case Verdict::isolated: return {0, 0.6, 0};
+    case Verdict::exact: return {0, 0.4, 0.4};
+    case Verdict::boundary: return {0.55, 0, 0.75};
+    case Verdict::undecided: return {1, 0, 0};
+    case Verdict::partial: return {1, 0.55, 0};
+    case Verdict::pending: return {0.6, 0.6, 0.6};
+  }
+  return {};
+}
+
+Color set_color(const std::string& set) { return look(symbolic::definition(set)).drawn.paint.print; }
 
 }  // namespace corank::report

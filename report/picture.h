@@ -1,6 +1,6 @@
 // What a picture shows: the boxes of one or several results in two or three coordinates. Here it is decided which
-// coordinates, colours and names there are; how it is drawn is the matter of portrait.h (.svg, .pdf, .png), vtp.h (ParaView)
-// and gcl.h (Geomview).
+// coordinates, colours and names there are; how it is drawn is the matter of portrait.h (.svg, .pdf, .png), vtp.cc and
+// gcl.cc.
 //
 // A coordinate is a variable or an angle θ, whose values over a box are drawn_angle() of the box's cosine and
 // sine. A box across the end of the angle's range is drawn in pieces, one at each end: every piece is the box, a turn apart.
@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "corank/core/interval.h"
 #include "corank/report/set_look.h"
-#include "corank/result/cuik_sol.h"
+#include "corank/result/cuik_files.h"
 #include "corank/result/result.h"
 
 namespace corank::report {
@@ -106,5 +107,23 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
 
 /// True where no layer has a box.
 bool is_empty(const Picture& picture);
+
+/// certify::angle_enclosure to the last bit, in less time where the 11 bits that a long double has more than a double settle
+/// how to round. That rests on the C library's atan2l being wrong by less than eight units of its last bit: good for a
+/// picture, not for a proof.
+Interval drawn_angle(const Interval& c, const Interval& s, const Interval& range);
+
+/// The picture for ParaView and other programs built on VTK, as PolyData (.vtp, XML; "VTK File Formats", Kitware). A box is
+/// 4 points and a face, or with three axes 8 points and 6 faces; a face is a cell. Cell data: `box`, the box's number in
+/// its result, from 0; `verdict`, −1 where there is none; `set`, the number of the layer. Field data hold the names:
+/// `verdict_names`, `set_names`, `axes`. Data arrays are compressed by zlib. Throws std::invalid_argument where there is no
+/// box.
+std::string to_vtp(const Picture& picture);
+
+/// The picture for Geomview, in its command language, with the boxes as OFF meshes of OOGL, in the manner of the CUIK
+/// suite's cuikplot3d; coordinates have 9 digits. `name`: what Geomview shows; `comment`: a line at the file's head, such
+/// as the command that makes it. With two axes the picture is flat, z = 0. Throws ResultFileError where there are no boxes
+/// to show.
+std::string to_gcl(const Picture& picture, const std::string& name, const std::string& comment);
 
 }  // namespace corank::report

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "corank/report/canvas.h"
-#include "corank/report/layout_svg.h"
+#include "corank/report/layout.h"
 #include "corank/result/result_file.h"
 
 namespace corank::report {

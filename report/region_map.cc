@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "corank/report/cell_union.h"
 #include "corank/report/layout.h"
-#include "corank/report/polygon_union.h"
 #include "corank/symbolic/display_name.h"
 
 namespace corank::report {

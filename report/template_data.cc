@@ -7,6 +7,7 @@
 #include "corank/report/page_assets.h"
 #include "corank/report/page_data.h"
 #include "corank/report/page_words.h"
+#include "corank/result/summary.h"
 
 namespace corank::report {
 
@@ -76,6 +77,15 @@ std::string card_html(const SetView& view) {
   }
   card["bar"] = std::move(bar);
   return filled(kCardTemplate, card);
+}
+
+Json summaries(const std::vector<SetView>& views, const std::vector<std::string>& files) {
+  Json sets = Json::array();
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    sets.push_back(Json::parse(result::to_json(views[k].result)));
+    sets.back()["file"] = files.at(k);
+  }
+  return sets;
 }
 
 std::string filled(std::string_view pattern, const TemplateData& data) {

@@ -13,6 +13,7 @@
 namespace corank::report {
 
 using TemplateData = kainjow::mustache::data;
+using Json = nlohmann::ordered_json;
 
 inline TemplateData empty_list() { return TemplateData{TemplateData::type::list}; }
 /// A list of {key: …}.
@@ -36,19 +37,22 @@ std::string card_html(const SetView& view);
 
 /// A JSON list of what `of` makes of each item.
 template <class Items, class Of>
-nlohmann::ordered_json each(const Items& items, const Of& of) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+Json each(const Items& items, const Of& of) {
+  Json list = Json::array();
   for (const auto& item : items) list.push_back(of(item));
   return list;
 }
 /// A name as the scripts write it: [base, subscript].
-nlohmann::ordered_json label(const std::string& name);
+Json label(const std::string& name);
 /// The words of all verdicts, in the order of Verdict.
-nlohmann::ordered_json verdict_names();
+Json verdict_names();
 /// What the scripts read of a set: "name", "title" of one member, is it "singular", whose rates are "locked", "layer" and
 /// "dot" (SetLook), "dimension", "sigma", "complete", "count" of boxes, "types" of each box, and of a workspace boundary
 /// "passage" (null of other sets).
-nlohmann::ordered_json set_description(const SetView& view);
+Json set_description(const SetView& view);
+
+/// Of each set what corank solve --json prints of it, with its file.
+Json summaries(const std::vector<SetView>& views, const std::vector<std::string>& files);
 
 std::string filled(std::string_view pattern, const TemplateData& data);
 

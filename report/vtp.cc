@@ -1,4 +1,4 @@
-#include "corank/report/vtp.h"
+#include "corank/report/picture.h"
 
 #include <fmt/format.h>
 #include <zlib.h>

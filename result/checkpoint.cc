@@ -8,12 +8,11 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <streambuf>
 
 #include "corank/result/output_file.h"
-#include "corank/result/printable.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/text_file.h"
 
 namespace corank::result {
@@ -60,25 +59,6 @@ class SummingBuffer : public std::streambuf {
   std::streambuf& to_;
   std::uint32_t sum_ = 0;
   std::array<char, 1 << 16> block_{};
-};
-
-// Puts what is written at the end of a text.
-class AppendingBuffer : public std::streambuf {
- public:
-  explicit AppendingBuffer(std::string& to) : to_(to) {}
-
- protected:
-  int_type overflow(int_type c) override {
-    if (!traits_type::eq_int_type(c, traits_type::eof())) to_.push_back(traits_type::to_char_type(c));
-    return traits_type::not_eof(c);
-  }
-  std::streamsize xsputn(const char* bytes, std::streamsize count) override {
-    to_.append(bytes, static_cast<std::size_t>(count));
-    return count;
-  }
-
- private:
-  std::string& to_;
 };
 
 void put(std::ostream& out, std::uint64_t number, std::size_t bytes) {
@@ -195,12 +175,11 @@ void write_checkpoint(const std::filesystem::path& path, const std::string& vers
 
 std::string checkpoint_bytes(const std::string& version, const Checkpoint& checkpoint, const StateWriter& state,
                              std::uint64_t expected) {
-  std::string bytes;
-  bytes.reserve(expected);
-  AppendingBuffer buffer(bytes);
-  std::ostream out(&buffer);
+  std::string room;
+  room.reserve(expected);
+  std::ostringstream out(std::move(room), std::ios::binary);
   write(out, version, checkpoint, state);
-  return bytes;
+  return std::move(out).str();
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string& version) {

@@ -1,7 +1,13 @@
-// A cover with its certificates below any group of an HDF5 file, for files that hold several (result/shape_file.h).
+// A cover with its certificates below any group of an HDF5 file. The group /certificates:
+//
+//   reduction/variable, equation, other, factor (−1: none; texts)     region_lower, region_upper (R×n)
+//   box_region, box_point, box_corank (N; −1: none)
+//   point_region, point_point, point_corank                             of the entries of /points
+//   decimals                            of each of these points and variable; empty texts where nothing is proven
+//   exact_points/polynomial, lower, upper, coordinates (texts; coefficients of 1, t, t² … with commas between), corank,
+//   sole_within
+//   proof/…                             the vectors of core/proof.h, compressed; missing where the cover has no proof
 #pragma once
-
-#include <string>
 
 #include "corank/core/cover.h"
 #include "corank/result/hdf5_file.h"
@@ -14,7 +20,11 @@ void write_boxes(Hdf5Writer& file, const std::string& group, const std::vector<C
 std::vector<CoverBox> read_boxes(Hdf5Reader& file, const std::string& group, std::size_t n,
                                  const std::vector<int>* sides = nullptr, bool with_free = true);
 
-/// Boxes, points, σ, dimension; certificates as in result/certificate_file.h. The writer's prefix is `group` then.
+void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variables);
+/// Into a cover that has its boxes and points. Throws ResultFileError where an index is out of range or a number is none.
+void read_certificates(const Hdf5Reader& file, Cover& cover, std::size_t variables);
+
+/// Boxes, points, σ, dimension, certificates. The writer's prefix is `group` then.
 void write_cover(Hdf5Writer& file, const std::string& group, const Cover& cover, std::size_t variables);
 /// Throws ResultFileError where something is missing, has other sizes, or is out of range. The reader's prefix is "" then.
 Cover read_cover(Hdf5Reader& file, const std::string& group, std::size_t variables);

@@ -1,6 +1,7 @@
-#include "corank/result/cuik_param.h"
+#include "corank/result/cuik_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -8,8 +9,9 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <sstream>
+
+#include "corank/symbolic/nearest_name.h"
 
 namespace corank::result {
 namespace {
@@ -25,30 +27,14 @@ std::vector<std::string> words_of_text(const char* text) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
-// Edits that turn a into b.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t above = row[j + 1];
-      row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
-
 std::string upper(std::string name) {
   for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return name;
 }
 
-std::string nearest(std::string name) {
-  name = upper(std::move(name));
-  return *std::ranges::min_element(cuik_parameters(), {}, [&](const std::string& known) { return distance(name, known); });
+std::string nearest(const std::string& name) {
+  return *std::ranges::min_element(cuik_parameters(), {},
+                                   [&](const std::string& known) { return symbolic::letter_changes(name, known); });
 }
 
 const std::map<std::string, double (*)(double)> kFunctions{
@@ -115,7 +101,7 @@ class ParamParser {
       const auto [stop, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), token_.number);
       if (error != std::errc{})
         fail(line_, error == std::errc::result_out_of_range ? "a number is out of range" : "found '.'", "a number");
-      end = static_cast<std::size_t>(stop - text_.data());
+      end = stop - text_.data();
       if (end < text_.size() && (is_word(text_[end]) || text_[end] == '.'))
         fail(line_, "found a letter right after a number", "a blank");
       token_.kind = Token::Kind::number;
@@ -148,10 +134,9 @@ class ParamParser {
     if (token_.kind != Token::Kind::name) found("a parameter, NAME = value");
     const Token name = token_;
     const std::string known = upper(name.text);
-    if (std::ranges::find(cuik_parameters(), known) == cuik_parameters().end()) {
+    if (std::ranges::find(cuik_parameters(), known) == cuik_parameters().end())
       fail(name.line, "the parameter '" + name.text + "' is unknown",
            "a parameter of the CUIK suite; did you mean " + nearest(name.text) + "?");
-    }
     next();
     need('=');
     const std::optional<double> value = this->value();
@@ -204,34 +189,23 @@ class ParamParser {
     const double b = choice(depth + 1);
     return x != 0 ? a : b;
   }
-  double sum(int depth) {
-    double x = product(depth);
-    for (;;) {
-      if (take('+')) {
-        x += product(depth);
-      } else if (take('-')) {
-        x -= product(depth);
-      } else {
-        return x;
-      }
+  // From left to right, powers, too, and a sign binds closer, as in the CUIK suite: -2^2 is 4, 2^3^2 is 64.
+  double sum(int depth, std::size_t rank = 0) {
+    static constexpr std::array<std::string_view, 3> kSigns{"+-", "*/", "^"};
+    if (rank == kSigns.size()) return operand(depth);
+    double x = sum(depth, rank + 1);
+    while (token_.kind == Token::Kind::sign && kSigns[rank].find(token_.text) != std::string_view::npos) {
+      const char sign = token_.text[0];
+      next();
+      const double y = sum(depth, rank + 1);
+      x = sign == '+' ? x + y : sign == '-' ? x - y : sign == '*' ? x * y : sign == '/' ? x / y : std::pow(x, y);
     }
+    return x;
   }
-  double product(int depth) {
-    double x = power(depth);
-    for (;;) {
-      if (take('*')) {
-        x *= power(depth);
-      } else if (take('/')) {
-        x /= power(depth);
-      } else {
-        return x;
-      }
-    }
-  }
-  // From left to right, and a sign binds closer, as in the CUIK suite: -2^2 is 4, 2^3^2 is 64.
-  double power(int depth) {
-    double x = operand(depth);
-    while (take('^')) x = std::pow(x, operand(depth));
+  double in_parentheses(int depth) {
+    need('(');
+    const double x = choice(depth + 1);
+    need(')');
     return x;
   }
   double operand(int depth) {
@@ -239,24 +213,15 @@ class ParamParser {
     if (depth > kDeepest) fail(token_.line, "a value is nested too deeply", "a number");
     if (take('-')) return -operand(depth + 1);
     if (take('+')) return operand(depth + 1);
-    if (take('(')) {
-      const double x = choice(depth + 1);
-      need(')');
-      return x;
-    }
     const Token token = token_;
+    if (token.kind == Token::Kind::sign && token.text == "(") return in_parentheses(depth);
     if (token.kind == Token::Kind::number) {
       next();
       return token.number;
     }
     if (token.kind != Token::Kind::name) found("a value");
     next();
-    if (const auto f = kFunctions.find(upper(token.text)); f != kFunctions.end()) {
-      need('(');
-      const double x = choice(depth + 1);
-      need(')');
-      return f->second(x);
-    }
+    if (const auto f = kFunctions.find(upper(token.text)); f != kFunctions.end()) return f->second(in_parentheses(depth));
     if (const auto v = values_.find(token.text); v != values_.end()) return v->second;
     fail(token.line, "'" + token.text + "' has no value",
          "a number, a constant such as PI or TRUE, or a parameter given before");

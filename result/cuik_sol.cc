@@ -1,4 +1,4 @@
-#include "corank/result/cuik_sol.h"
+#include "corank/result/cuik_files.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,8 @@
 #include <cfenv>
 #include <cstdio>
 #include <cstdlib>
+
+#include "corank/result/tallies.h"
 
 namespace corank::result {
 namespace {
@@ -37,17 +39,12 @@ std::string without_braces(std::string text) {
 
 void append_box(std::string& out, const std::vector<std::string>& names, const SolBox& box) {
   out += fmt::format("{{ {}  ", box.box.size());
-  for (std::size_t i = 0; i < box.box.size(); ++i) {
+  for (std::size_t i = 0; i < box.box.size(); ++i)
     out += (names.empty() ? "" : names[i]) + outward_interval_text(box.box[i]) + " ";
-  }
   out += "}";
   if (box.verdict) out += fmt::format(" % {}", to_string(*box.verdict));
   for (std::size_t i = 0; box.verdict && i < box.free.size(); ++i) out += (i == 0 ? ", free " : " ") + box.free[i];
   out += "\n";
-}
-
-bool holds_solution(Verdict verdict) {
-  return verdict == Verdict::regular || verdict == Verdict::isolated || verdict == Verdict::exact;
 }
 
 std::string statistics(const Result& result) {
@@ -55,8 +52,7 @@ std::string statistics(const Result& result) {
   std::string out = "STATISTICS FOR corank:\n\n";
   out += fmt::format("Time: {:.2f} seg\n", cover.statistics.seconds_total);
   out += fmt::format("Box level information:\n  N processed boxes : {:6}\n", cover.statistics.processed);
-  std::size_t proven = 0;
-  for (const CoverBox& box : cover.boxes) proven += holds_solution(box.verdict) ? 1 : 0;
+  const std::size_t proven = std::ranges::count_if(cover.boxes, is_surely_within, &CoverBox::verdict);
   out += fmt::format("    N solution boxes: {:6} ({})\n", cover.boxes.size(), proven);
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
@@ -86,7 +82,7 @@ SolFile boxes_of(const Result& result, bool with_auxiliary) {
     for (const std::size_t i : listed) box.box.push_back(from.box.at(i));
     box.verdict = from.verdict;
     for (const int v : from.free) {
-      const ResultVariable& variable = result.variables.at(static_cast<std::size_t>(v));
+      const ResultVariable& variable = result.variables.at(v);
       if (with_auxiliary || !variable.auxiliary) box.free.push_back(variable.name);
     }
   }
@@ -107,16 +103,14 @@ std::string to_sol(const Result& result) {
   if (result.options.max_solutions > 0) out += fmt::format("   N_SOLUTIONS = {}\n", result.options.max_solutions);
   out += fmt::format("\n{}\nEquations from file: {}.cuik\n", kRule, model);
   out += fmt::format("% the set solved: {}\n", result.set);
-  if (result.options.tolerance > 0) {
+  if (result.options.tolerance > 0)
     out += fmt::format("% coefficients that are not integers: within {} of their size\n", result.options.tolerance);
-  }
-  for (const ConstantOverride& c : result.options.constants) {
+  for (const ConstantOverride& c : result.options.constants)
     out += without_braces(fmt::format("% with {} = {}\n", c.name, c.expression));
-  }
   out += fmt::format("{}\n\n{}\nSOLUTIONS (to input file {}.cuik):\n\n", without_braces(result.model_text), kRule, model);
   for (std::size_t i = 0; i < boxes.boxes.size(); ++i) {
     const SolBox& box = boxes.boxes[i];
-    out += fmt::format("{:4} :{}", i + 1, holds_solution(*box.verdict) ? " <S> " : " ");
+    out += fmt::format("{:4} :{}", i + 1, is_surely_within(*box.verdict) ? " <S> " : " ");
     append_box(out, boxes.variables, box);
   }
   return out + fmt::format("{}\n\n{}\n\nEND OF THE SOLUTION FILE\n", statistics(result), kRule);

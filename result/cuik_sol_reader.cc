@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "corank/result/cuik_sol.h"
+#include "corank/result/cuik_files.h"
 #include "corank/symbolic/text_file.h"
 
 namespace corank::result {
@@ -39,16 +39,13 @@ class SolParser {
       read_verdict(box);
       out_.boxes.push_back(std::move(box));
     }
-    if (out_.boxes.empty() && text_.find("SOLUTIONS (to input file") == std::string_view::npos) {
+    if (out_.boxes.empty() && text_.find("SOLUTIONS (to input file") == std::string_view::npos)
       throw CuikFileError(file_, line_, "holds no boxes", "boxes such as { 2  x[0,1] y[0,1] }");
-    }
-    if (ours() && text_.find("\nEND OF THE SOLUTION FILE") == std::string_view::npos) {
+    if (ours() && text_.find("\nEND OF THE SOLUTION FILE") == std::string_view::npos)
       throw CuikFileError(file_, line_, "the file is cut short", "END OF THE SOLUTION FILE");
-    }
     if (out_.variables.empty() && out_.boxes.empty()) return out_;
-    if (std::set<std::string>(out_.variables.begin(), out_.variables.end()).size() != out_.variables.size()) {
+    if (std::set<std::string>(out_.variables.begin(), out_.variables.end()).size() != out_.variables.size())
       throw CuikFileError(file_, first_box_line_, "a name occurs twice in a box", "distinct names of variables");
-    }
     return out_;
   }
 
@@ -92,7 +89,7 @@ class SolParser {
     const auto [stop, error] = std::from_chars(digits, end, value);
     if (error == std::errc::result_out_of_range) fail("a number is out of range", "a double");
     if (error != std::errc{}) found(expectation);
-    at_ += static_cast<std::size_t>(stop - begin);
+    at_ += stop - begin;
     return value;
   }
 
@@ -129,10 +126,9 @@ class SolParser {
     }
     if (at_ >= text_.size()) found("'}'");
     advance();
-    if (box.box.size() != n) {
+    if (box.box.size() != n)
       fail("a box announces " + std::to_string(n) + " sides and has " + std::to_string(box.box.size()),
            "as many as announced");
-    }
     if (n == 0) fail("a box has no sides", "at least one");
     if (keep) check_like_first(line, box, std::move(names));
     return box;
@@ -144,10 +140,9 @@ class SolParser {
       out_.variables = std::move(names);
       return;
     }
-    if (box.box.size() != out_.boxes.front().box.size() || names != out_.variables) {
+    if (box.box.size() != out_.boxes.front().box.size() || names != out_.variables)
       throw CuikFileError(file_, line, "a box has other variables than the one in line " + std::to_string(first_box_line_),
                           "the same variables in every box");
-    }
   }
 
   // The comment behind a box: "% verdict" or "% verdict, free x y". Anything else is none of ours.
@@ -166,9 +161,8 @@ class SolParser {
       fail("the verdict " + shown(word) + " is followed by " + shown(rest), "free and names of variables");
     std::istringstream names{std::string(rest.substr(5))};
     for (std::string name; names >> name; box.free.push_back(name)) {
-      if (std::find(out_.variables.begin(), out_.variables.end(), name) == out_.variables.end()) {
+      if (std::find(out_.variables.begin(), out_.variables.end(), name) == out_.variables.end())
         fail("the free variable " + shown(name) + " is not a variable of the box", "names of its variables");
-      }
     }
   }
 

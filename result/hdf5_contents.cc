@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <vector>
 
 #include "corank/result/hdf5_handle.h"
@@ -43,7 +42,7 @@ Extents shape_of(hid_t space, const std::string& name) {
     refuse(name + " does not have the shape of an item of a result");
   std::array<hsize_t, 2> sizes{1, 1}, most{1, 1};
   if (H5Sget_simple_extent_dims(space, sizes.data(), most.data()) < 0) refuse(name + " has no shape");
-  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.rank); ++k) {
+  for (int k = 0; k < shape.rank; ++k) {
     if (most[k] != sizes[k]) refuse(name + " can grow, which no item of a result can");
     shape.sizes[k] = sizes[k];
   }

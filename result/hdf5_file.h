@@ -46,22 +46,28 @@ class Hdf5Writer {
   void integers(const std::string& name, std::span<const std::int64_t> data);
   /// Values that index `words`, stored as an enumeration of these words.
   void enumeration(const std::string& name, std::span<const std::uint8_t> data, const std::vector<std::string>& words);
-  /// A vector of any length, of std::uint8_t, std::int32_t, float or double, compressed (deflate).
-  template <class T>
-  void packed(const std::string& name, const std::vector<T>& data);
-  void packed(const std::string& name, std::span<const std::uint8_t> data);
+  /// A vector or a span of any length, of std::uint8_t, std::int32_t, float or double, compressed (deflate).
+  template <class List>
+  void packed(const std::string& name, const List& data) {
+    write_packed(name, item_type<typename List::value_type>(), std::as_bytes(std::span(data)));
+  }
   void text(const std::string& name, const std::string& text);
   void texts(const std::string& name, const std::vector<std::string>& texts);
 
-  void attribute(const std::string& object, const std::string& name, double value);
-  void attribute(const std::string& object, const std::string& name, std::int64_t value);
-  void attribute(const std::string& object, const std::string& name, std::uint64_t value);
+  /// Of type double, std::int64_t or std::uint64_t.
+  template <class T>
+  void attribute(const std::string& object, const std::string& name,
+                 T value) requires(std::is_arithmetic_v<T> && sizeof(T) == 8) {
+    write_attribute(object, name, item_type<T>(), &value);
+  }
   void attribute(const std::string& object, const std::string& name, const std::string& value);
 
   /// Writes everything out; a writer that is destroyed without it leaves a file of no worth.
   void close();
 
  private:
+  void write_packed(const std::string& name, ItemType type, std::span<const std::byte> data);
+  void write_attribute(const std::string& object, const std::string& name, ItemType type, const void* value);
   std::string at(const std::string& name) const { return name == "/" && !prefix_.empty() ? prefix_ : prefix_ + name; }
 
   std::string path_, prefix_;
@@ -92,7 +98,9 @@ class Hdf5Reader {
                  const UseRow& use);
   /// A vector of any length, of std::uint8_t, std::int32_t, std::int64_t, float or double.
   template <class T>
-  std::vector<T> vector(const std::string& name) const;
+  std::vector<T> vector(const std::string& name) const {
+    return vector_item(name, item_type<T>(), "numbers of its kind").template copied<T>();
+  }
   /// Indices into `words`, matched by word, not by number.
   std::vector<std::uint8_t> enumeration(const std::string& name, const std::vector<std::string>& words) const;
   std::string text(const std::string& name) const;
@@ -103,7 +111,13 @@ class Hdf5Reader {
   bool has_attribute(const std::string& object, const std::string& name) const;
   /// Of type double, std::int64_t, std::uint64_t or std::string.
   template <class T>
-  T attribute(const std::string& object, const std::string& name) const;
+  T attribute(const std::string& object, const std::string& name) const {
+    if constexpr (std::is_same_v<T, std::string>) {
+      return text_of(attribute_item(object, name, ItemType::text));
+    } else {
+      return attribute_item(object, name, item_type<T>()).template copied<T>().front();
+    }
+  }
   /// Throws where it is not from `least` to `most`.
   int integer(const std::string& object, const std::string& name, std::int64_t least, std::int64_t most) const;
 
@@ -116,6 +130,9 @@ class Hdf5Reader {
   void parse(std::span<const std::byte> bytes);
   const Item& array(const std::string& name) const;
   const Item& array(const std::string& name, ItemType type, const std::string& expected) const;
+  const Item& vector_item(const std::string& name, ItemType type, const std::string& expected) const;
+  const Item& attribute_item(const std::string& object, const std::string& name, ItemType type) const;
+  static std::string text_of(const Item& item, std::size_t i = 0);
   const Item& shaped(const std::string& name, ItemType type, std::size_t rows, std::size_t columns,
                      const std::string& expected) const;
 

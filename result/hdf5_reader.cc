@@ -5,7 +5,7 @@
 
 #include "corank/result/hdf5_contents.h"
 #include "corank/result/hdf5_file.h"
-#include "corank/result/printable.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/text_file.h"
 
 namespace corank::result {
@@ -27,28 +27,6 @@ SharedBytes read_guarded(const std::string& path, Contents wanted) {
   } catch (const GuardedWorkError& problem) {
     throw ResultFileError(printable_line(path + ": " + problem.what()));
   }
-}
-
-template <class T>
-std::vector<T> copied(const Item& item) {
-  std::vector<T> data(item.data.size() / sizeof(T));
-  if (!data.empty()) std::memcpy(data.data(), item.data.data(), item.data.size());
-  return data;
-}
-
-template <class T>
-constexpr ItemType type_of() {
-  if (std::is_same_v<T, double>) return ItemType::float64;
-  if (std::is_same_v<T, float>) return ItemType::float32;
-  if (std::is_same_v<T, std::int64_t>) return ItemType::int64;
-  if (std::is_same_v<T, std::uint64_t>) return ItemType::uint64;
-  return std::is_same_v<T, std::int32_t> ? ItemType::int32 : ItemType::uint8;
-}
-
-std::string unpadded(std::span<const std::byte> data) {
-  std::size_t length = data.size();
-  while (length > 0 && data[length - 1] == std::byte{0}) --length;
-  return {reinterpret_cast<const char*>(data.data()), length};
 }
 
 }  // namespace
@@ -93,7 +71,7 @@ const Item& Hdf5Reader::shaped(const std::string& name, ItemType type, std::size
 }
 
 std::vector<double> Hdf5Reader::doubles(const std::string& name, std::size_t rows, std::size_t columns) const {
-  return copied<double>(shaped(name, ItemType::float64, rows, columns, "floating-point numbers"));
+  return shaped(name, ItemType::float64, rows, columns, "floating-point numbers").copied<double>();
 }
 
 void Hdf5Reader::take_rows(const std::vector<std::string>& doubles, const std::string& bytes, std::size_t rows,
@@ -127,21 +105,14 @@ void Hdf5Reader::take_rows(const std::vector<std::string>& doubles, const std::s
   }
 }
 
-template <class T>
-std::vector<T> Hdf5Reader::vector(const std::string& name) const {
-  const Item& item = array(name, type_of<T>(), "numbers of its kind");
-  if (item.rank != 1) fail(name + " is not a vector");
-  return copied<T>(item);
+const Item& Hdf5Reader::vector_item(const std::string& name, ItemType type, const std::string& expected) const {
+  const Item& item = array(name, type, expected);
+  if (item.rank != 1) fail(name + (type == ItemType::text ? " is not a list of texts" : " is not a vector"));
+  return item;
 }
-template std::vector<std::uint8_t> Hdf5Reader::vector(const std::string& name) const;
-template std::vector<std::int32_t> Hdf5Reader::vector(const std::string& name) const;
-template std::vector<std::int64_t> Hdf5Reader::vector(const std::string& name) const;
-template std::vector<float> Hdf5Reader::vector(const std::string& name) const;
-template std::vector<double> Hdf5Reader::vector(const std::string& name) const;
 
 std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const std::vector<std::string>& words) const {
-  const Item& item = array(name, ItemType::word, "enumeration");
-  if (item.rank != 1) fail(name + " is not a vector");
+  const Item& item = vector_item(name, ItemType::word, "enumeration");
   std::array<int, 256> meaning, place;
   meaning.fill(-1);
   place.fill(-1);
@@ -152,11 +123,10 @@ std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const
     const auto found = std::find(words.begin(), words.end(), word);
     if (found != words.end()) meaning[value] = static_cast<int>(found - words.begin());
   }
-  std::vector<std::uint8_t> data = copied<std::uint8_t>(item);
+  std::vector<std::uint8_t> data = item.copied<std::uint8_t>();
   for (std::uint8_t& value : data) {
     if (place[value] < 0) fail(name + " holds a number without a word");
-    if (meaning[value] < 0)
-      fail(name + " holds the unknown word " + item.words[static_cast<std::size_t>(place[value])].second);
+    if (meaning[value] < 0) fail(name + " holds the unknown word " + item.words[place[value]].second);
     value = static_cast<std::uint8_t>(meaning[value]);
   }
   return data;
@@ -165,15 +135,19 @@ std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const
 std::string Hdf5Reader::text(const std::string& name) const {
   const Item& item = array(name, ItemType::text, "text");
   if (item.elements() != 1) fail(name + " is not a text");
-  return unpadded(item.data);
+  return text_of(item);
 }
 
 std::vector<std::string> Hdf5Reader::texts(const std::string& name) const {
-  const Item& item = array(name, ItemType::text, "texts");
-  if (item.rank != 1) fail(name + " is not a list of texts");
+  const Item& item = vector_item(name, ItemType::text, "texts");
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < item.elements(); ++i) texts.push_back(unpadded(item.data.subspan(i * item.width, item.width)));
+  for (std::size_t i = 0; i < item.elements(); ++i) texts.push_back(text_of(item, i));
   return texts;
+}
+
+std::string Hdf5Reader::text_of(const Item& item, std::size_t i) {
+  const std::string_view padded(reinterpret_cast<const char*>(item.data.data()) + i * item.width, item.width);
+  return std::string(padded.substr(0, padded.find_last_not_of('\0') + 1));
 }
 
 bool Hdf5Reader::has(const std::string& name) const { return items_.contains(at(name)) || items_.contains(at(name) + "/"); }
@@ -182,27 +156,17 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
   return items_.contains(at(object) + "@" + name);
 }
 
-template <class T>
-T Hdf5Reader::attribute(const std::string& object, const std::string& name) const {
+const Item& Hdf5Reader::attribute_item(const std::string& object, const std::string& name, ItemType type) const {
   const auto found = items_.find(at(object) + "@" + name);
   if (found == items_.end()) fail("not a corank result: the attribute " + name + " of " + at(object) + " is missing");
-  const Item& item = found->second;
   const std::string which = "the attribute " + name + " of " + object;
-  if (item.elements() != 1) fail(which + " is not one value");
-  if constexpr (std::is_same_v<T, std::string>) {
-    if (item.type != ItemType::text) fail(which + " is not a text");
-    return unpadded(item.data);
-  } else {
-    if (item.type != type_of<T>())
-      fail(which +
-           (std::is_same_v<T, double> ? " is not a floating-point number" : " is not an integer of the expected type"));
-    return copied<T>(item).front();
-  }
+  if (found->second.elements() != 1) fail(which + " is not one value");
+  if (found->second.type != type)
+    fail(which + (type == ItemType::text      ? " is not a text"
+                  : type == ItemType::float64 ? " is not a floating-point number"
+                                              : " is not an integer of the expected type"));
+  return found->second;
 }
-template double Hdf5Reader::attribute(const std::string& object, const std::string& name) const;
-template std::int64_t Hdf5Reader::attribute(const std::string& object, const std::string& name) const;
-template std::uint64_t Hdf5Reader::attribute(const std::string& object, const std::string& name) const;
-template std::string Hdf5Reader::attribute(const std::string& object, const std::string& name) const;
 
 int Hdf5Reader::integer(const std::string& object, const std::string& name, std::int64_t least, std::int64_t most) const {
   const auto value = attribute<std::int64_t>(object, name);

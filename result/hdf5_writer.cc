@@ -17,6 +17,18 @@ struct OwnHandle : Handle {
       : Handle(id, close, id < 0 ? path + ": " + problem : problem) {}
 };
 
+// Of numbers.
+hid_t native(ItemType type) {
+  switch (type) {
+    case ItemType::float64: return H5T_NATIVE_DOUBLE;
+    case ItemType::float32: return H5T_NATIVE_FLOAT;
+    case ItemType::int64: return H5T_NATIVE_INT64;
+    case ItemType::uint64: return H5T_NATIVE_UINT64;
+    case ItemType::int32: return H5T_NATIVE_INT32;
+    default: return H5T_NATIVE_UINT8;
+  }
+}
+
 // A text of fixed length, padded with zeros: HDF5 has no strings of length 0, and variable-length ones end at a zero byte.
 struct TextType : OwnHandle {
   TextType(std::size_t length, const std::string& path)
@@ -38,17 +50,18 @@ struct WordsType : OwnHandle {
 };
 
 // columns = 0: a vector.
-struct Shape : OwnHandle {
-  Shape(std::size_t rows, std::size_t columns, const std::string& path)
-      : Shape(std::array<hsize_t, 2>{rows, columns}, columns == 0 ? 1 : 2, path) {}
+struct ArraySpace : OwnHandle {
+  ArraySpace(std::size_t rows, std::size_t columns, const std::string& path)
+      : ArraySpace(std::array<hsize_t, 2>{rows, columns}, columns == 0 ? 1 : 2, path) {}
 
  private:
-  Shape(const std::array<hsize_t, 2>& sizes, int rank, const std::string& path)
+  ArraySpace(const std::array<hsize_t, 2>& sizes, int rank, const std::string& path)
       : OwnHandle(H5Screate_simple(rank, sizes.data(), nullptr), H5Sclose, path, "cannot describe an array") {}
 };
 
-struct Scalar : OwnHandle {
-  explicit Scalar(const std::string& path) : OwnHandle(H5Screate(H5S_SCALAR), H5Sclose, path, "cannot describe a value") {}
+struct ScalarSpace : OwnHandle {
+  explicit ScalarSpace(const std::string& path)
+      : OwnHandle(H5Screate(H5S_SCALAR), H5Sclose, path, "cannot describe a value") {}
 };
 
 hid_t create_dataset(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space,
@@ -74,7 +87,7 @@ void write_rows(hid_t file, const std::string& path, const std::string& name, hi
                 std::size_t columns, const Hdf5Writer::FillRow<T>& fill) {
   constexpr std::size_t kBlock = std::size_t{4} << 20;
   const QuietErrors quiet;
-  const Shape all(rows, columns, path);
+  const ArraySpace all(rows, columns, path);
   const OwnHandle set(create_dataset(file, path, name, type, all), H5Dclose, path, "cannot write " + name);
   const std::size_t at_once = std::max<std::size_t>(1, kBlock / (std::max<std::size_t>(1, columns) * sizeof(T)));
   std::vector<T> block;
@@ -84,13 +97,13 @@ void write_rows(hid_t file, const std::string& path, const std::string& name, hi
     for (std::size_t k = 0; k < count; ++k) fill(from + k, std::span(block).subspan(k * columns, columns));
     const std::array<hsize_t, 2> start{from, 0}, size{count, columns};
     if (H5Sselect_hyperslab(all, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) < 0 ||
-        H5Dwrite(set, type, Shape(count, columns, path), all, H5P_DEFAULT, block.data()) < 0)
+        H5Dwrite(set, type, ArraySpace(count, columns, path), all, H5P_DEFAULT, block.data()) < 0)
       fail(path, "cannot write " + name + " (disk full?)");
   }
 }
 
-void write_packed(hid_t file, const std::string& path, const std::string& name, hid_t type, std::span<const std::byte> data,
-                  int threads, const Ended& in_haste) {
+void pack(hid_t file, const std::string& path, const std::string& name, hid_t type, std::span<const std::byte> data,
+          int threads, const Ended& in_haste) {
   constexpr hsize_t kChunk = 1 << 16;
   constexpr unsigned kLevel = 1;
   constexpr std::uint32_t kAllFilters = 0, kNoFilter = 3;  // a bit for each that a chunk goes without
@@ -100,7 +113,7 @@ void write_packed(hid_t file, const std::string& path, const std::string& name, 
   if (H5Pset_chunk(properties, 1, &chunk) < 0 || H5Pset_shuffle(properties) < 0 || H5Pset_deflate(properties, kLevel) < 0)
     fail(path, "cannot compress " + name);
   const QuietErrors quiet;
-  const Shape space(size, 0, path);
+  const ArraySpace space(size, 0, path);
   const OwnHandle set(create_dataset(file, path, name, type, space, properties), H5Dclose, path, "cannot write " + name);
   const auto write = [&](std::size_t k, std::span<const std::byte> bytes, bool packed) {
     const hsize_t offset = k * chunk;
@@ -110,11 +123,11 @@ void write_packed(hid_t file, const std::string& path, const std::string& name, 
   for_each_packed_chunk({data, width, chunk, kLevel}, threads, in_haste, write);
 }
 
-void write_attribute(hid_t file, const std::string& path, const std::string& object, const std::string& name, hid_t type,
-                     const void* data) {
+void put_attribute(hid_t file, const std::string& path, const std::string& object, const std::string& name, hid_t type,
+                   const void* data) {
   const QuietErrors quiet;
   const OwnHandle at(H5Oopen(file, object.c_str(), H5P_DEFAULT), H5Oclose, path, "cannot write to " + object);
-  const Scalar space(path);
+  const ScalarSpace space(path);
   const OwnHandle attribute(H5Acreate2(at, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path,
                             "cannot write the attribute " + name + " of " + object);
   if (H5Awrite(attribute, type, data) < 0) fail(path, "cannot write the attribute " + name + " of " + object);
@@ -146,23 +159,20 @@ void Hdf5Writer::close() {
 
 void Hdf5Writer::enter(const std::string& prefix) {
   prefix_.clear();
-  if (prefix.empty()) return;
-  const QuietErrors quiet;
-  const OwnHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path_, "cannot make the group " + prefix);
-  H5Pset_create_intermediate_group(links, 1);
-  const OwnHandle created(H5Gcreate2(file_, prefix.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_,
-                          "cannot make the group " + prefix);
+  if (!prefix.empty()) group(prefix);
   prefix_ = prefix;
 }
 
 void Hdf5Writer::group(const std::string& name) {
   const QuietErrors quiet;
-  const OwnHandle created(H5Gcreate2(file_, at(name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_,
-                          "cannot make the group " + name);
+  const std::string problem = "cannot make the group " + name;
+  const OwnHandle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path_, problem);
+  H5Pset_create_intermediate_group(links, 1);
+  const OwnHandle created(H5Gcreate2(file_, at(name).c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path_, problem);
 }
 
 void Hdf5Writer::doubles(const std::string& name, std::span<const double> data, std::size_t rows, std::size_t columns) {
-  write_dataset(file_, path_, at(name), H5T_NATIVE_DOUBLE, Shape(rows, columns, path_), data.data());
+  write_dataset(file_, path_, at(name), H5T_NATIVE_DOUBLE, ArraySpace(rows, columns, path_), data.data());
 }
 
 void Hdf5Writer::doubles(const std::string& name, std::size_t rows, std::size_t columns, const FillRow<double>& fill) {
@@ -174,33 +184,20 @@ void Hdf5Writer::bytes(const std::string& name, std::size_t rows, std::size_t co
 }
 
 void Hdf5Writer::integers(const std::string& name, std::span<const std::int64_t> data) {
-  write_dataset(file_, path_, at(name), H5T_NATIVE_INT64, Shape(data.size(), 0, path_), data.data());
+  write_dataset(file_, path_, at(name), H5T_NATIVE_INT64, ArraySpace(data.size(), 0, path_), data.data());
 }
 
-template <class T>
-void Hdf5Writer::packed(const std::string& name, const std::vector<T>& data) {
-  const hid_t type = std::is_same_v<T, double>         ? H5T_NATIVE_DOUBLE
-                     : std::is_same_v<T, float>        ? H5T_NATIVE_FLOAT
-                     : std::is_same_v<T, std::int32_t> ? H5T_NATIVE_INT32
-                                                       : H5T_NATIVE_UINT8;
-  write_packed(file_, path_, at(name), type, std::as_bytes(std::span(data)), threads_, in_haste_);
-}
-template void Hdf5Writer::packed(const std::string& name, const std::vector<std::uint8_t>& data);
-template void Hdf5Writer::packed(const std::string& name, const std::vector<std::int32_t>& data);
-template void Hdf5Writer::packed(const std::string& name, const std::vector<float>& data);
-template void Hdf5Writer::packed(const std::string& name, const std::vector<double>& data);
-
-void Hdf5Writer::packed(const std::string& name, std::span<const std::uint8_t> data) {
-  write_packed(file_, path_, at(name), H5T_NATIVE_UINT8, std::as_bytes(data), threads_, in_haste_);
+void Hdf5Writer::write_packed(const std::string& name, ItemType type, std::span<const std::byte> data) {
+  pack(file_, path_, at(name), native(type), data, threads_, in_haste_);
 }
 
 void Hdf5Writer::enumeration(const std::string& name, std::span<const std::uint8_t> data,
                              const std::vector<std::string>& words) {
-  write_dataset(file_, path_, at(name), WordsType(words, path_), Shape(data.size(), 0, path_), data.data());
+  write_dataset(file_, path_, at(name), WordsType(words, path_), ArraySpace(data.size(), 0, path_), data.data());
 }
 
 void Hdf5Writer::text(const std::string& name, const std::string& text) {
-  write_dataset(file_, path_, at(name), TextType(text.size(), path_), Scalar(path_), text.c_str());
+  write_dataset(file_, path_, at(name), TextType(text.size(), path_), ScalarSpace(path_), text.c_str());
 }
 
 void Hdf5Writer::texts(const std::string& name, const std::vector<std::string>& texts) {
@@ -208,20 +205,14 @@ void Hdf5Writer::texts(const std::string& name, const std::vector<std::string>& 
   for (const std::string& t : texts) length = std::max(length, t.size());
   std::string data(length * texts.size(), '\0');
   for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(data.data() + i * length, length);
-  write_dataset(file_, path_, at(name), TextType(length, path_), Shape(texts.size(), 0, path_), data.data());
+  write_dataset(file_, path_, at(name), TextType(length, path_), ArraySpace(texts.size(), 0, path_), data.data());
 }
 
-void Hdf5Writer::attribute(const std::string& object, const std::string& name, double value) {
-  write_attribute(file_, path_, at(object), name, H5T_NATIVE_DOUBLE, &value);
-}
-void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::int64_t value) {
-  write_attribute(file_, path_, at(object), name, H5T_NATIVE_INT64, &value);
-}
-void Hdf5Writer::attribute(const std::string& object, const std::string& name, std::uint64_t value) {
-  write_attribute(file_, path_, at(object), name, H5T_NATIVE_UINT64, &value);
+void Hdf5Writer::write_attribute(const std::string& object, const std::string& name, ItemType type, const void* value) {
+  put_attribute(file_, path_, at(object), name, native(type), value);
 }
 void Hdf5Writer::attribute(const std::string& object, const std::string& name, const std::string& value) {
-  write_attribute(file_, path_, at(object), name, TextType(value.size(), path_), value.c_str());
+  put_attribute(file_, path_, at(object), name, TextType(value.size(), path_), value.c_str());
 }
 
 }  // namespace corank::result

@@ -1,14 +1,9 @@
-#include "corank/result/map_file.h"
-
-#include <fmt/format.h>
-
+// The file of a map.
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "corank/result/cover_group.h"
-#include "corank/result/printable.h"
-#include "corank/result/stored_list.h"
+#include "corank/result/source_group.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::result {
@@ -93,10 +88,10 @@ void read_cells(const Hdf5Reader& file, Cover cover, MapClaims& claims) {
     MapCellClaim& cell = claims.cells.emplace_back(MapCellClaim{std::move(row.sides), row.count, {}});
     if (static_cast<std::size_t>(row.sheets) > cover.boxes.size() - next)
       file.fail("its cells name sheets that do not exist");
-    for (const std::size_t end = next + static_cast<std::size_t>(row.sheets); next < end; ++next) {
+    for (const std::size_t end = next + row.sheets; next < end; ++next) {
       CoverBox& sheet = cover.boxes[next];
       if (sheet.region < 0) file.fail("a sheet has no region");
-      cell.sheets.push_back({std::move(sheet.box), cover.regions[static_cast<std::size_t>(sheet.region)]});
+      cell.sheets.push_back({std::move(sheet.box), cover.regions[sheet.region]});
     }
   }
   if (next != cover.boxes.size()) file.fail("its cells name sheets that do not exist");
@@ -119,14 +114,12 @@ void write_map(const std::filesystem::path& path, const MapFile& data, const End
 }
 
 MapFile read_map(const std::filesystem::path& path) {
-  Hdf5Reader file(path.string());
-  MapFile data;
-  read_source(file, kMapKind, data);
-  read_family(file, data.family);
-  const std::vector<std::string> expected = names(family_of(data).system);
-  if (file.texts("/variables") != expected) file.fail("its variables are not those of the model");
-  read_cells(file, read_cover(file, "/sheets", expected.size()), data.claims);
-  return data;
+  return read_certificate<MapFile>(path, kMapKind, [](Hdf5Reader& file, MapFile& data) {
+    read_family(file, data.family);
+    const std::vector<std::string> expected = names(family_of(data).system);
+    if (file.texts("/variables") != expected) file.fail("its variables are not those of the model");
+    read_cells(file, read_cover(file, "/sheets", expected.size()), data.claims);
+  });
 }
 
 check::MapReport verify(const MapFile& file, const check::Options& options) {
@@ -141,7 +134,7 @@ std::map<int, double> confirmed_shares(const check::MapReport& report, const Map
                                        bool check::MapCellReport::*what) {
   double all = 1;
   const auto [system, parameters, copies] = family_of(file);
-  for (const int p : parameters) all *= system.variables[static_cast<std::size_t>(p)].domain.width();
+  for (const int p : parameters) all *= system.variables[p].domain.width();
   std::map<int, double> shares;
   for (std::size_t c = 0; c < report.cells.size(); ++c)
     if (const MapCellClaim& cell = file.claims.cells[c]; report.cells[c].*what)
@@ -169,22 +162,20 @@ std::string to_table(const check::MapReport& report, const MapFile& file) {
 }
 
 std::string to_json(const check::MapReport& report, const MapFile& file) {
-  using Json = nlohmann::ordered_json;
-  Json json{{"verified", report.verified()},
-            {"complete", report.complete()},
-            {"interrupted", report.interrupted},
-            {"over", {file.family.over.at(0).name, file.family.over.at(1).name}},
-            {"cells", {{"claimed", report.cells.size()}, {"at_least", report.at_least()}, {"complete", report.completed()}}},
-            {"sheets", report.sheets},
-            {"boxes", report.boxes}};
+  nlohmann::ordered_json json{
+      {"verified", report.verified()},
+      {"complete", report.complete()},
+      {"interrupted", report.interrupted},
+      {"over", {file.family.over.at(0).name, file.family.over.at(1).name}},
+      {"cells", {{"claimed", report.cells.size()}, {"at_least", report.at_least()}, {"complete", report.completed()}}},
+      {"sheets", report.sheets},
+      {"boxes", report.boxes}};
   for (const auto& [name, what] :
        {std::pair("shares_at_least", &check::MapCellReport::at_least), {"shares", &check::MapCellReport::complete}}) {
-    json[name] = Json::object();
+    json[name] = nlohmann::ordered_json::object();
     for (const auto& [count, share] : confirmed_shares(report, file, what)) json[name][std::to_string(count)] = share;
   }
-  json["failures"] = report.failures;
-  if (report.interrupted) json["stage"] = report.stage;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return ended_json(std::move(json), report, report.failures);
 }
 
 }  // namespace corank::result

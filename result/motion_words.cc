@@ -1,15 +1,13 @@
-#include "corank/result/motion_words.h"
-
+// Self-motions in words: which coordinates stay, which moves freely, which follow.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/rounding.h"
-#include "corank/result/domain_notes.h"
+#include "corank/result/sentences.h"
 #include "corank/result/words.h"
 #include "corank/symbolic/velocity_equation.h"
 
@@ -316,7 +314,8 @@ std::string relation_text(const Result& result, const Polynomial& f) {
   return solved_text(f, own, [&](int v) { return result.variables[v].name; });
 }
 
-void describe_motions(const symbolic::Mechanism& mechanism, const System& system, Result& result) {
+void describe_in_words(const symbolic::Mechanism& mechanism, const System& system, Result& result) {
+  describe_domain(mechanism, system, result);
   result.motions.clear();
   if (result.variables.size() != system.variables.size()) return;
   const UpwardRounding rounding;
@@ -329,11 +328,6 @@ void describe_motions(const symbolic::Mechanism& mechanism, const System& system
       result.motions.emplace_back();
     }
   }
-}
-
-void describe_in_words(const symbolic::Mechanism& mechanism, const System& system, Result& result) {
-  describe_domain(mechanism, system, result);
-  describe_motions(mechanism, system, result);
 }
 
 std::string motion_sentence(const Result& result, std::size_t motion) {

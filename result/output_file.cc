@@ -13,7 +13,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "corank/result/printable.h"
+#include "corank/result/words.h"
 
 namespace corank::result {
 namespace {

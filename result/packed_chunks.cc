@@ -43,7 +43,7 @@ void use_plain_chunk(const ChunkedArray& array, std::size_t k, const UseChunk& u
 void for_each_packed_chunk(const ChunkedArray& array, int threads, const Ended& in_haste, const UseChunk& use) {
   const std::size_t elements = array.bytes.size() / array.width, chunks = (elements + array.chunk - 1) / array.chunk;
   ThreadArena arena(threads);
-  std::vector<std::vector<std::byte>> packed(kChunksPerThread * static_cast<std::size_t>(arena.threads()));
+  std::vector<std::vector<std::byte>> packed(kChunksPerThread * arena.threads());
   for (std::size_t from = 0; from < chunks; from += packed.size()) {
     const std::size_t count = std::min(packed.size(), chunks - from);
     if (is_over(in_haste)) {

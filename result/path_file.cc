@@ -1,19 +1,11 @@
-#include "corank/result/path_file.h"
-
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-
-#include "corank/core/check.h"
-#include "corank/result/printable.h"
-#include "corank/result/stored_list.h"
-#include "corank/symbolic/algebrizer.h"
+// The file of a path.
+#include "corank/result/source_group.h"
 #include "corank/symbolic/velocity_blocks.h"
 
 namespace corank::result {
 namespace {
 
-constexpr std::int64_t kMostNodes = 10'000'000, kMostVariables = 100'000;
+constexpr int kMostNodes = 10'000'000, kMostVariables = 100'000;
 
 // n variables, of which a path of a set of such a dimension holds so many combinations at each node.
 auto node_fields(std::size_t n, std::size_t dimension) {
@@ -28,52 +20,52 @@ auto piece_fields(std::size_t n) {
   return [n](auto& field, auto& piece) { field.box("", piece, n); };
 }
 
+void store_numbers(Hdf5Writer& file, const std::string& name, const std::vector<double>& numbers, std::size_t size) {
+  file.doubles(name, numbers, size, 0);
+}
+void store_numbers(const Hdf5Reader& file, const std::string& name, std::vector<double>& numbers, std::size_t size) {
+  numbers = file.doubles(name, size, 0);
+}
+
+template <class File, class Data>
+void store_path(File& to, Data& data) {
+  const StoredPart file(to);
+  auto& tube = data.tube;
+  double radius = tube.radius();
+  int n = static_cast<int>(data.variables.size()), nodes = static_cast<int>(tube.nodes.size()),
+      across = nodes > 0 ? static_cast<int>(tube.nodes.front().values.size()) : 0;
+  file("avoid", data.avoid);
+  file.check(data.avoid == "forward" || data.avoid == "inverse" || data.avoid == "both",
+             "it does not say which singularities it avoids");
+  file("radius", radius);
+  file("variables", n, 1, kMostVariables);
+  file("dimension", across, 1, n);
+  file("nodes", nodes, 2, kMostNodes);
+  const std::size_t variables = n, pieces = nodes - 1;
+  file.texts("/variables", data.variables);
+  file.check(data.variables.size() == variables, "its variables are not as many as it says");
+  file.list("/nodes/", tube.nodes, node_fields(variables, across));
+  file.list("/pieces/", tube.pieces, piece_fields(variables));
+  file.check(tube.nodes.size() == pieces + 1 && tube.pieces.size() == pieces, "its nodes are not as many as it says");
+  store_numbers(to, "/pieces/radius", tube.radii, pieces);
+  store_numbers(to, "/sizes", tube.sizes, variables);
+  file.check(radius == tube.radius(), "its radius is not the least of its pieces'");
+}
+
 }  // namespace
 
-void write_path(const std::filesystem::path& path, const PathFile& data) {
-  const std::size_t n = data.variables.size(), nodes = data.tube.nodes.size();
-  CORANK_CHECK(nodes > 0);
-  const std::size_t across = data.tube.nodes.front().values.size();
-  write_certificate(path, kPathKind, data, {}, [&](Hdf5Writer& file) {
-    file.attribute("/", "avoid", data.avoid);
-    file.attribute("/", "radius", data.tube.radius());
-    file.attribute("/", "variables", static_cast<std::int64_t>(n));
-    file.attribute("/", "dimension", static_cast<std::int64_t>(across));
-    file.attribute("/", "nodes", static_cast<std::int64_t>(nodes));
-    file.texts("/variables", data.variables);
-    write_list(file, "/nodes/", data.tube.nodes, node_fields(n, across));
-    write_list(file, "/pieces/", data.tube.pieces, piece_fields(n));
-    file.doubles("/pieces/radius", data.tube.radii, data.tube.radii.size(), 0);
-    file.doubles("/sizes", data.tube.sizes, n, 0);
-  });
+void write_path(const std::filesystem::path& path, const PathFile& data, const Ended& in_haste) {
+  CORANK_CHECK(!data.tube.nodes.empty());
+  write_certificate(path, kPathKind, data, in_haste, [&](Hdf5Writer& file) { store_path(file, data); });
 }
 
 PathFile read_path(const std::filesystem::path& path) {
-  const Hdf5Reader file(path.string());
-  PathFile data;
-  read_source(file, kPathKind, data);
-  data.avoid = file.attribute<std::string>("/", "avoid");
-  if (data.avoid != "forward" && data.avoid != "inverse" && data.avoid != "both")
-    file.fail("it does not say which singularities it avoids");
-  const auto n = static_cast<std::size_t>(file.integer("/", "variables", 1, kMostVariables)),
-             across = static_cast<std::size_t>(file.integer("/", "dimension", 1, static_cast<std::int64_t>(n))),
-             nodes = static_cast<std::size_t>(file.integer("/", "nodes", 2, kMostNodes));
-  data.variables = file.texts("/variables");
-  if (data.variables.size() != n) file.fail("its variables are not as many as it says");
-  data.tube.nodes = read_list<TubeNode>(file, "/nodes/", node_fields(n, across));
-  data.tube.pieces = read_list<Box>(file, "/pieces/", piece_fields(n));
-  if (data.tube.nodes.size() != nodes || data.tube.pieces.size() != nodes - 1)
-    file.fail("its nodes are not as many as it says");
-  data.tube.radii = file.doubles("/pieces/radius", nodes - 1, 0);
-  data.tube.sizes = file.doubles("/sizes", n, 0);
-  if (file.attribute<double>("/", "radius") != data.tube.radius()) file.fail("its radius is not the least of its pieces'");
-  return data;
+  return read_certificate<PathFile>(path, kPathKind, [](Hdf5Reader& file, PathFile& data) { store_path(file, data); });
 }
 
 check::TubeReport verify(const PathFile& file, const check::Options& options) {
   const symbolic::Mechanism model = model_of(file);
-  const System system =
-      symbolic::algebrize(symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1));
+  const System system = symbolic::algebrize(symbolic::singularity_system(model, symbolic::SingularitySet::cspace));
   check::TubeReport report;
   if (names(system) != file.variables) {
     report.failures.emplace_back("its variables are not those of the model");

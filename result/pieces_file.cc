@@ -1,17 +1,8 @@
-#include "corank/result/pieces_file.h"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
+// The file of the pieces of a C-space.
 #include "corank/result/cover_group.h"
-#include "corank/result/printable.h"
-#include "corank/result/stored_list.h"
-#include "corank/symbolic/algebrizer.h"
+#include "corank/result/source_group.h"
 #include "corank/symbolic/determinant_factors.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
 
 namespace corank::result {
 namespace {
@@ -20,20 +11,14 @@ constexpr int kMostPieces = 1'000'000, kNone = -1;
 constexpr std::array<const char*, 3> kLists{"aspects", "assembly_modes", "working_modes"};
 constexpr std::array<const char*, 3> kWords{"aspects", "assembly modes", "working modes"};
 
-symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model) {
-  return symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1);
+symbolic::TrigonometricSystem cspace_of(const symbolic::Mechanism& model) {
+  return symbolic::singularity_system(model, symbolic::SingularitySet::cspace);
 }
 
 std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model, const PiecesFile& file) {
-  const symbolic::TrigonometricSystem equations = equations_of(model);
+  const symbolic::TrigonometricSystem equations = cspace_of(model);
   const symbolic::Loci loci = symbolic::singularity_loci(model);
-  std::array<PolynomialMatrix, 2> matrices;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const symbolic::ExpressionMatrix& m = loci.matrices[k];
-    matrices[k].rows = matrices[k].columns = static_cast<int>(m.rows.size());
-    for (const auto& row : m.rows)
-      for (Polynomial& f : symbolic::polynomials(equations, row)) matrices[k].entries.push_back(std::move(f));
-  }
+  const std::array matrices{polynomials(equations, loci.matrices[0]), polynomials(equations, loci.matrices[1])};
   const auto list = [&](const PieceClaims& claims, const std::vector<symbolic::Expression>& own) {
     std::vector<symbolic::Expression> named;
     for (const std::string& text : claims.factors) named.push_back(symbolic::parse_expression(text, "a factor"));
@@ -41,8 +26,6 @@ std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model
   };
   return {list(file.lists[0], loci.all_factors), list(file.lists[1], loci.factors[0]), list(file.lists[2], loci.factors[1])};
 }
-
-std::string list_group(std::size_t list) { return std::string("/") + kLists[list]; }
 
 // Boxes have n sides, and so many variables are held or free as C-space has dimensions.
 struct Sizes {
@@ -79,71 +62,63 @@ struct Sizes {
   }
 };
 
-void write_claims(Hdf5Writer& file, std::size_t list, const PieceClaims& claims, const Sizes& sizes) {
-  file.enter(list_group(list));
-  file.attribute("/", "at_least", std::int64_t{claims.at_least});
-  file.attribute("/", "at_most", claims.at_most ? std::int64_t{*claims.at_most} : kNone);
-  write_list(file, "/", claims.members, sizes.members());
+template <class File, class Data>
+void store_claims(File& to, const std::string& group, Data& claims, const Sizes& sizes) {
+  to.enter(group);
+  const StoredPart file(to);
+  file("at_least", claims.at_least, 0, kMostPieces);
+  file.optional("at_most", claims.at_most, 0, kMostPieces, kNone);
+  file.list("/", claims.members, sizes.members());
   file.texts("/factors", claims.factors);
-  write_list(file, "/", claims.members, sizes.determinants());
+  file.further("/", claims.members, sizes.determinants());
 }
 
-PieceClaims read_claims(Hdf5Reader& file, std::size_t list, const Sizes& sizes) {
-  file.enter(list_group(list));
-  PieceClaims claims;
-  claims.at_least = file.integer("/", "at_least", 0, kMostPieces);
-  const int most = file.integer("/", "at_most", kNone, kMostPieces);
-  if (most != kNone) claims.at_most = most;
-  claims.factors = file.texts("/factors");
-  claims.members = read_list<PieceMember>(file, "/", sizes.members());
-  read_into(file, "/", claims.members, sizes.determinants());
-  if (file.has("/proof")) {
-    if (sizes.dimension == 0) file.fail(list_group(list) + "/proof: a set of points has none");
-    claims.proof = {read_list<SheetBridge>(file, "/proof/bridges_", sizes.bridges(), Storage::packed),
-                    read_list<PieceCell>(file, "/proof/cells_", sizes.cells(), Storage::packed),
-                    read_list<PieceLink>(file, "/proof/links_", sizes.links(), Storage::packed)};
+template <class File, class Data>
+void store_proof(File& to, const std::string& group, Data& proof, const Sizes& sizes) {
+  const StoredPart file(to);
+  to.enter(file.kWrites ? group + "/proof" : group);
+  const std::string place = file.kWrites ? "/" : "/proof/";
+  file.list(place + "bridges_", proof.bridges, sizes.bridges(), Storage::packed);
+  file.list(place + "cells_", proof.cells, sizes.cells(), Storage::packed);
+  file.list(place + "links_", proof.links, sizes.links(), Storage::packed);
+}
+
+template <class File, class Data>
+void store_pieces(File& to, Data& data) {
+  const StoredPart file(to);
+  const std::vector<std::string> variables = names(symbolic::algebrize(cspace_of(model_of(data))));
+  file.same("/variables", variables, "its variables are not those of the model");
+  if constexpr (file.kWrites)
+    write_cover(to, "/space", data.space, variables.size());
+  else
+    data.space = read_cover(to, "/space", variables.size());
+  const Sizes sizes{variables.size(), static_cast<std::size_t>(data.space.dimension)};
+  const auto group = [](std::size_t list) { return std::string("/") + kLists[list]; };
+  for (std::size_t k = 0; k < kLists.size(); ++k) store_claims(to, group(k), data.lists[k], sizes);
+  for (std::size_t k = 0; k < kLists.size(); ++k) {
+    auto& proof = data.lists[k].proof;
+    to.enter("");
+    if constexpr (!file.kWrites)
+      if (to.has(group(k) + "/proof")) proof.emplace();
+    file.check(!proof || sizes.dimension > 0, group(k) + "/proof: a set of points has none");
+    if (proof) store_proof(to, group(k), *proof, sizes);
   }
-  file.enter("");
-  return claims;
-}
-
-void write_proof(Hdf5Writer& file, std::size_t list, const PieceProof& proof, const Sizes& sizes) {
-  file.enter(list_group(list) + "/proof");
-  write_list(file, "/bridges_", proof.bridges, sizes.bridges(), Storage::packed);
-  write_list(file, "/cells_", proof.cells, sizes.cells(), Storage::packed);
-  write_list(file, "/links_", proof.links, sizes.links(), Storage::packed);
-  file.enter("");
 }
 
 }  // namespace
 
 void write_pieces(const std::filesystem::path& path, const PiecesFile& data, const Ended& in_haste) {
-  const System system = symbolic::algebrize(equations_of(model_of(data)));
-  const Sizes sizes{system.variables.size(), static_cast<std::size_t>(data.space.dimension)};
-  write_certificate(path, kPiecesKind, data, in_haste, [&](Hdf5Writer& file) {
-    file.texts("/variables", names(system));
-    write_cover(file, "/space", data.space, sizes.n);
-    for (std::size_t k = 0; k < kLists.size(); ++k) write_claims(file, k, data.lists[k], sizes);
-    for (std::size_t k = 0; k < kLists.size(); ++k)
-      if (const auto& proof = data.lists[k].proof) write_proof(file, k, *proof, sizes);
-  });
+  write_certificate(path, kPiecesKind, data, in_haste, [&](Hdf5Writer& file) { store_pieces(file, data); });
 }
 
 PiecesFile read_pieces(const std::filesystem::path& path) {
-  Hdf5Reader file(path.string());
-  PiecesFile data;
-  read_source(file, kPiecesKind, data);
-  const std::vector<std::string> expected = names(symbolic::algebrize(equations_of(model_of(data))));
-  if (file.texts("/variables") != expected) file.fail("its variables are not those of the model");
-  data.space = read_cover(file, "/space", expected.size());
-  for (std::size_t k = 0; k < kLists.size(); ++k)
-    data.lists[k] = read_claims(file, k, {expected.size(), static_cast<std::size_t>(data.space.dimension)});
-  return data;
+  return read_certificate<PiecesFile>(path, kPiecesKind,
+                                      [](Hdf5Reader& file, PiecesFile& data) { store_pieces(file, data); });
 }
 
 check::PiecesReport verify(const PiecesFile& file, const check::Options& options) {
   const symbolic::Mechanism model = model_of(file);
-  return check::check_pieces(symbolic::algebrize(equations_of(model)), file.space, {file.lists.begin(), file.lists.end()},
+  return check::check_pieces(symbolic::algebrize(cspace_of(model)), file.space, {file.lists.begin(), file.lists.end()},
                              functions_of(model, file), options);
 }
 
@@ -191,12 +166,10 @@ std::string to_table(const check::PiecesReport& report, const PiecesFile& file) 
 }
 
 std::string to_json(const check::PiecesReport& report, const PiecesFile& file) {
-  using Json = nlohmann::ordered_json;
-  const auto or_null = [](const std::optional<int>& x) { return x ? Json(*x) : Json(); };
-  Json json{{"verified", report.verified()},
-            {"complete", report.complete()},
-            {"covers_cspace", report.covered()},
-            {"interrupted", report.interrupted}};
+  nlohmann::ordered_json json{{"verified", report.verified()},
+                              {"complete", report.complete()},
+                              {"covers_cspace", report.covered()},
+                              {"interrupted", report.interrupted}};
   for (std::size_t k = 0; k < report.lists.size(); ++k) {
     const check::PieceReport& r = report.lists[k];
     json[kLists[k]] = {{"claimed", {{"at_least", file.lists[k].at_least}, {"at_most", or_null(file.lists[k].at_most)}}},
@@ -207,9 +180,7 @@ std::string to_json(const check::PiecesReport& report, const PiecesFile& file) {
                        {"links", r.links}};
     if (!r.bounded) json[kLists[k]]["open"] = r.unbounded;
   }
-  json["failures"] = all_failures(report);
-  if (report.interrupted) json["stage"] = report.stage;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return ended_json(std::move(json), report, all_failures(report));
 }
 
 }  // namespace corank::result

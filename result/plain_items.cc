@@ -1,7 +1,5 @@
 #include "corank/result/plain_items.h"
 
-#include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace corank::result {

@@ -5,16 +5,27 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace corank::result {
 
 enum class ItemType : std::uint8_t { float64, float32, int64, uint64, int32, uint8, word, text };
 inline constexpr int kItemTypes = 8;
+/// As which of them a number is stored.
+template <class T>
+constexpr ItemType item_type() {
+  if (std::is_same_v<T, double>) return ItemType::float64;
+  if (std::is_same_v<T, float>) return ItemType::float32;
+  if (std::is_same_v<T, std::int64_t>) return ItemType::int64;
+  if (std::is_same_v<T, std::uint64_t>) return ItemType::uint64;
+  return std::is_same_v<T, std::int32_t> ? ItemType::int32 : ItemType::uint8;
+}
 
 struct Item {
   /// "/group/name"; an attribute "/group@name"; a group "/group/".
@@ -27,6 +38,12 @@ struct Item {
   std::span<const std::byte> data;                          ///< elements, row-major
 
   std::uint64_t elements() const { return sizes[0] * sizes[1]; }
+  template <class T>
+  std::vector<T> copied() const {
+    std::vector<T> list(data.size() / sizeof(T));
+    if (!list.empty()) std::memcpy(list.data(), data.data(), data.size());
+    return list;
+  }
 };
 
 /// Bytes that are no list of items.

@@ -1,10 +1,28 @@
 #include "corank/result/result.h"
 
-#include "corank/symbolic/model_file.h"
-
 #include <algorithm>
 
+#include "corank/core/check.h"
+#include "corank/symbolic/model_file.h"
+
 namespace corank::result {
+namespace {
+
+// Its configuration alone: what is proven of it stays with the part.
+CoverBox of_whole(const CoverBox& box, std::size_t variables, int part) {
+  CoverBox result;
+  result.box.assign(box.box.begin(), box.box.begin() + static_cast<std::ptrdiff_t>(variables));
+  result.verdict = box.verdict;
+  result.reason = box.reason;
+  for (const int v : box.free)
+    if (v < static_cast<int>(variables)) result.free.push_back(v);
+  result.passage = box.passage;
+  result.side = box.side;
+  result.part = part;
+  return result;
+}
+
+}  // namespace
 
 std::string version() { return CORANK_VERSION; }
 
@@ -35,6 +53,39 @@ symbolic::Mechanism model_of(const Result& result) {
   put_in(result.options.constants, model);
   put_in(result.options.outputs, model);
   return model;
+}
+
+void merge_parts(Result& whole) {
+  CORANK_CHECK(!whole.parts.empty());
+  const std::size_t n = whole.variables.size();
+  Cover cover;
+  cover.sigma = {0, 0};
+  cover.tolerance = whole.parts.front().cover.tolerance;
+  whole.stopped.clear();
+  whole.options = whole.parts.front().options;
+  for (std::size_t i = 0; i < whole.parts.size(); ++i) {
+    const Result& part = whole.parts[i];
+    CORANK_CHECK(part.variables.size() >= n);
+    for (const CoverBox& box : part.cover.boxes) cover.boxes.push_back(of_whole(box, n, static_cast<int>(i)));
+    for (const CoverBox& box : part.cover.points) cover.points.push_back(of_whole(box, n, static_cast<int>(i)));
+    cover.dimension = std::max(cover.dimension, part.cover.dimension);
+    cover.observed_dimension = std::max(cover.observed_dimension, part.cover.observed_dimension);
+    cover.sigma.length = std::max(cover.sigma.length, part.cover.sigma.length);
+    cover.sigma.angle = std::max(cover.sigma.angle, part.cover.sigma.angle);
+    cover.wider_than_sigma += part.cover.wider_than_sigma;
+    const Statistics& s = part.cover.statistics;
+    cover.statistics.processed += s.processed;
+    cover.statistics.newton_steps += s.newton_steps;
+    cover.statistics.proofs_tried += s.proofs_tried;
+    cover.statistics.seconds_total += s.seconds_total;
+    cover.statistics.seconds_search += s.seconds_search;
+    cover.statistics.seconds_certify += s.seconds_certify;
+    if (whole.stopped.empty()) whole.stopped = part.stopped;
+  }
+  if (cover.dimension > 0) cover.points.clear();
+  whole.options.sigma = cover.sigma;
+  whole.outputs = whole.parts.front().outputs;
+  whole.cover = std::move(cover);
 }
 
 }  // namespace corank::result

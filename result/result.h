@@ -49,7 +49,7 @@ struct RunOptions {
   friend bool operator==(const RunOptions&, const RunOptions&) = default;
 };
 
-/// What the ranges of the model's coordinates did to the search (result/domain_notes.h).
+/// What the ranges of the model's coordinates did to the search (result/sentences.h).
 struct DomainNotes {
   struct End {
     std::string coordinate;
@@ -99,7 +99,7 @@ struct Result {
   std::string part;
   std::string condition;  ///< of a part that is a factor's: "d1 - x = 0"
   std::vector<Result> parts;
-  /// Of an empty set of a robot: what was found out about its C-space (result/assembled.h), one result or none. Its boxes,
+  /// Of an empty set of a robot: what was found out about its C-space (result/sentences.h), one result or none. Its boxes,
   /// if any, are those about one configuration, or, where no such one was found, what the search had left.
   std::vector<Result> assembly;
   /// A hint, of an empty set: within kRounding of the coefficients that are no integers there are solutions.

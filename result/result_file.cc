@@ -4,12 +4,11 @@
 #include <fstream>
 #include <numeric>
 
-#include "corank/result/certificate_file.h"
 #include "corank/result/checkpoint.h"
 #include "corank/result/cover_group.h"
 #include "corank/result/output_file.h"
 #include "corank/result/source_group.h"
-#include "corank/result/stored_list.h"
+#include "corank/result/tallies.h"
 #include "corank/symbolic/set_definition.h"
 
 namespace corank::result {
@@ -47,35 +46,24 @@ constexpr auto kTypeFields = [](auto& field, auto& box) {
   field.packed("types_excluded", box.types.excluded, kAllTypes);
 };
 
-constexpr auto kSigma = [](auto& field, auto& sigma) {
-  field("sigma_length", sigma.length);
-  field("sigma_angle", sigma.angle);
-};
+// Of a workspace boundary; a side that is not proven is stored as zeros.
+auto passage_fields(std::size_t outputs) {
+  return [outputs](auto& field, auto& box) {
+    field.word("passage", box.passage, kPassageWords);
+    CORANK_CHECK(box.side.empty() || box.side.size() == outputs);
+    std::vector<double> side = box.side;
+    side.resize(outputs);
+    constexpr bool writes = std::is_const_v<std::remove_reference_t<decltype(box)>>;
+    if constexpr (writes) {
+      field.row("side", std::as_const(side), outputs);
+    } else {
+      field.row("side", side, outputs);
+      if (box.passage != Passage::unproven) box.side = std::move(side);
+    }
+  };
+}
 
-// Attributes of a result, of its options, of its statistics.
-constexpr auto kSizes = [](auto& field, auto& result) {
-  field("dimension", result.cover.dimension, 0, kMostOfCounted);
-  field("tolerance", result.cover.tolerance);
-  field("configuration_size", result.configuration_size, 0, kMostOfCounted);
-  field("equations", result.equations, 0, kMostOfCounted);
-  field("inequalities", result.inequalities, 0, kMostOfCounted);
-};
-
-constexpr auto kKernelOptions = [](auto& field, auto& options) {
-  field("corank", options.corank, 1, kMostCorank);
-  field("passive_rates_eliminated", options.passive_rates_eliminated);
-};
-
-constexpr auto kFurtherOptions = [](auto& field, auto& options) {
-  field("kernel", options.kernel);
-  field("tolerance", options.tolerance);
-  field("threads", options.threads, 0, kMostThreads);
-  field("max_boxes", options.max_boxes);
-  field("max_solutions", options.max_solutions);
-  field("time_limit", options.time_limit);
-};
-
-constexpr auto kStatistics = [](auto& field, auto& statistics) {
+constexpr auto kStatistics = [](const auto& field, auto& statistics) {
   field("processed", statistics.processed);
   field("newton_steps", statistics.newton_steps);
   field("proofs_tried", statistics.proofs_tried);
@@ -84,73 +72,107 @@ constexpr auto kStatistics = [](auto& field, auto& statistics) {
   field("seconds_certify", statistics.seconds_certify);
 };
 
+// --- writing and reading; `oldest`: a file of that version ---
+
+void store_texts_if_any(Hdf5Writer& file, const char* name, const std::vector<std::string>& texts) {
+  if (!texts.empty()) StoredPart(file).texts(name, texts);
+}
+void store_texts_if_any(Hdf5Reader& file, const char* name, std::vector<std::string>& texts) {
+  if (file.has(name)) StoredPart(file).texts(name, texts);
+}
+
+template <class File, class Data>
+void store_sigma(const StoredPart<File>& file, Data& sigma, bool oldest) {
+  file(oldest ? "sigma" : "sigma_length", sigma.length);
+  file(oldest ? "sigma" : "sigma_angle", sigma.angle);
+}
+
+template <class File, class Data>
+void store_options(File& to, Data& options, bool oldest) {
+  const StoredPart file(to, "/options");
+  file.list("/options/constants/", options.constants, kConstant);
+  store_texts_if_any(to, "/options/outputs", options.outputs);
+  store_sigma(file, options.sigma, oldest);
+  if (!oldest) {
+    file("corank", options.corank, 1, kMostCorank);
+    file("passive_rates_eliminated", options.passive_rates_eliminated);
+    file.texts("/options/kernel_scales", options.kernel_scales);
+  }
+  file("kernel", options.kernel);
+  file.check(options.kernel.empty() || options.kernel == "right" || options.kernel == "left",
+             "the attribute kernel of /options is neither right nor left: '" + options.kernel + "'");
+  file("tolerance", options.tolerance);
+  file("threads", options.threads, 0, kMostThreads);
+  file("max_boxes", options.max_boxes);
+  file("max_solutions", options.max_solutions);
+  file("time_limit", options.time_limit);
+}
+
+// What a part has of its own, and a result without parts, but for its boxes.
+template <class File, class Data>
+void store_description(File& to, Data& result, bool oldest = false) {
+  const StoredPart file(to);
+  store_sigma(file, result.cover.sigma, oldest);
+  file("dimension", result.cover.dimension, 0, kMostOfCounted);
+  file("tolerance", result.cover.tolerance);
+  file("configuration_size", result.configuration_size, 0, kMostOfCounted);
+  file("equations", result.equations, 0, kMostOfCounted);
+  file("inequalities", result.inequalities, 0, kMostOfCounted);
+  file.text("/model/system", result.system_text);
+  file.list("/variables/", result.variables, kVariableFields);
+  file.list("/angles/", result.angles, kAngleFields);
+  store_options(to, result.options, oldest);
+  store_texts_if_any(to, "/outputs", result.outputs);
+}
+
+// Of boxes that have sides, verdicts and free variables.
+template <class File, class Data>
+void store_of_boxes(File& to, const std::string& group, Data& boxes, std::size_t outputs, bool of_parts,
+                    bool oldest = false) {
+  const StoredPart file(to);
+  if (!oldest) file.further(group + "/", boxes, kReasonField);
+  if (outputs > 0) file.further(group + "/", boxes, passage_fields(outputs));
+  if (of_parts) file.further(group + "/", boxes, kPartField);
+}
+
+template <class File, class Data>
+void store_types(File& to, Data& cover) {
+  const StoredPart file(to, "/boxes");
+  if constexpr (file.kWrites) {
+    if (cover.types.asked == 0) return;
+    to.attribute("/boxes", "types", fmt::format("{}", fmt::join(type_names(kAllTypes), " ")));
+  } else if (!to.has_attribute("/boxes", "types_asked")) {
+    return;  // none were asked for
+  }
+  file("types_asked", cover.types.asked, 0, kAllTypes);
+  file("types_of_set", cover.types.of_set, 0, kAllTypes);
+  file("types_left_out", cover.types.left_out);
+  file.further("/boxes/", cover.boxes, kTypeFields);
+  file.further("/points/", cover.points, kTypeFields);
+}
+
 // --- writing ---
-
-void write_options(Hdf5Writer& file, const RunOptions& options) {
-  write_constants(file, "/options/constants/", options.constants);
-  if (!options.outputs.empty()) file.texts("/options/outputs", options.outputs);
-  StoredAttributes attributes{.to = &file, .object = "/options"};
-  kSigma(attributes, options.sigma);
-  kKernelOptions(attributes, options);
-  file.texts("/options/kernel_scales", options.kernel_scales);
-  kFurtherOptions(attributes, options);
-}
-
-// Of a workspace boundary.
-void write_passages(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes, std::size_t outputs) {
-  std::vector<std::uint8_t> passages;
-  for (const CoverBox& box : boxes) passages.push_back(static_cast<std::uint8_t>(box.passage));
-  file.enumeration(group + "/passage", passages, kPassageWords);
-  file.doubles(group + "/side", boxes.size(), outputs, [&](std::size_t i, std::span<double> to) {
-    CORANK_CHECK(boxes[i].side.empty() || boxes[i].side.size() == outputs);
-    std::copy(boxes[i].side.begin(), boxes[i].side.end(), to.begin());
-  });
-}
-
-void write_list_of_boxes(Hdf5Writer& file, const std::string& group, const std::vector<CoverBox>& boxes,
-                         const Result& result) {
-  write_boxes(file, group, boxes, result.variables.size());
-  write_list(file, group + "/", boxes, kReasonField);
-  if (!result.outputs.empty()) write_passages(file, group, boxes, result.outputs.size());
-  if (!result.parts.empty()) write_list(file, group + "/", boxes, kPartField);
-}
-
-void write_types(Hdf5Writer& file, const Cover& cover) {
-  if (cover.types.asked == 0) return;
-  std::string names;
-  for (const SingularityType type : kSingularityTypes) names += (names.empty() ? "" : " ") + std::string(to_string(type));
-  file.attribute("/boxes", "types", names);
-  file.attribute("/boxes", "types_asked", std::int64_t{cover.types.asked});
-  file.attribute("/boxes", "types_of_set", std::int64_t{cover.types.of_set});
-  file.attribute("/boxes", "types_left_out", std::uint64_t{cover.types.left_out});
-  write_list(file, "/boxes/", cover.boxes, kTypeFields);
-  write_list(file, "/points/", cover.points, kTypeFields);
-}
 
 // What a part has of its own, and a result without parts.
 void write_own(Hdf5Writer& file, const Result& result) {
   const Cover& cover = result.cover;
+  const auto write = [&](const std::string& group, const std::vector<CoverBox>& boxes) {
+    write_boxes(file, group, boxes, result.variables.size());
+    store_of_boxes(file, group, boxes, result.outputs.size(), !result.parts.empty());
+  };
   file.attribute("/", "stopped", result.stopped);
   file.attribute("/", "complete", std::int64_t{cover.complete()});
-  StoredAttributes attributes{.to = &file};
-  kSigma(attributes, cover.sigma);
-  kSizes(attributes, result);
-  file.text("/model/system", result.system_text);
-  write_list(file, "/variables/", result.variables, kVariableFields);
-  write_list(file, "/angles/", result.angles, kAngleFields);
-  write_options(file, result.options);
-  if (!result.outputs.empty()) file.texts("/outputs", result.outputs);
-  write_list_of_boxes(file, "/boxes", cover.boxes, result);
+  store_description(file, result);
+  write("/boxes", cover.boxes);
   const auto counts = cover.counts();
   for (std::size_t v = 0; v < counts.size(); ++v)
     file.attribute("/boxes", to_string(static_cast<Verdict>(v)), std::uint64_t{counts[v]});
   file.attribute("/boxes", "wider_than_sigma", std::uint64_t{cover.wider_than_sigma});
   if (cover.observed_dimension > 0) file.attribute("/boxes", "observed_dimension", std::int64_t{cover.observed_dimension});
-  write_list_of_boxes(file, "/points", cover.points, result);
-  write_types(file, cover);
+  write("/points", cover.points);
+  store_types(file, cover);
   file.group("/statistics");
-  attributes.object = "/statistics";
-  kStatistics(attributes, cover.statistics);
+  kStatistics(StoredPart(file, "/statistics"), cover.statistics);
   write_certificates(file, cover, result.variables.size());
 }
 
@@ -205,36 +227,31 @@ class ResultReader {
     result.model = whole ? whole->model : word("model");
     result.set = whole ? whole->set : word("set");
     result.model_text = whole ? whole->model_text : file_.text("/model/text");
-    result.system_text = file_.text("/model/system");
-    result.variables = read_list<ResultVariable>(file_, "/variables/", kVariableFields);
+    store_description(file_, result, format_ == kOldest);
     const std::size_t n = result.variables.size();
-    result.angles = read_list<Angle>(file_, "/angles/", kAngleFields);
     for (const Angle& a : result.angles)
       if (std::min(a.cosine, a.sine) < 0 || std::max(a.cosine, a.sine) >= static_cast<int>(n))
         file_.fail("/angles name no variable");
+    if (result.configuration_size > static_cast<int>(n))
+      file_.fail("the attribute configuration_size is above the number of variables");
+    if (file_.has("/outputs") && result.outputs.empty()) file_.fail("/outputs is empty");
     sides_.resize(n);
     std::iota(sides_.begin(), sides_.end(), 0);
     if (reading_.sides) sides_ = reading_.sides(result);
-    StoredAttributes attributes{.from = &file_};
-    cover.sigma = sigma("/");
-    kSizes(attributes, result);
-    if (result.configuration_size > static_cast<int>(n))
-      file_.fail("the attribute configuration_size is above the number of variables");
-    read_options(result.options);
     if (file_.has_attribute("/", "stopped")) result.stopped = file_.attribute<std::string>("/", "stopped");
-    if (file_.has("/outputs")) result.outputs = words("/outputs");
-    if (file_.has("/outputs") && result.outputs.empty()) file_.fail("/outputs is empty");
-    cover.boxes = read_list_of_boxes("/boxes", n, result.outputs.size());
-    cover.points = read_list_of_boxes("/points", n, result.outputs.size());
-    attributes.object = "/statistics";
-    kStatistics(attributes, cover.statistics);
+    for (const auto& [group, boxes] : {std::pair("/boxes", &cover.boxes), {"/points", &cover.points}}) {
+      *boxes = read_boxes(file_, group, n, reading_.sides ? &sides_ : nullptr, reading_.free);
+      store_of_boxes(file_, group, *boxes, result.outputs.size(), file_.has(std::string(group) + "/part"),
+                     format_ == kOldest);
+    }
+    kStatistics(StoredPart(file_, "/statistics"), cover.statistics);
     if ((file_.attribute<std::int64_t>("/", "complete") != 0) != cover.complete())
       file_.fail("the attribute complete contradicts the boxes");
     check_counts(cover);
     cover.wider_than_sigma = file_.attribute<std::uint64_t>("/boxes", "wider_than_sigma");
     if (file_.has_attribute("/boxes", "observed_dimension"))
       cover.observed_dimension = file_.integer("/boxes", "observed_dimension", 1, static_cast<int>(n));
-    read_types(cover);
+    store_types(file_, cover);
     if (!reading_.sides) read_certificates(file_, cover, n);
     if (reading_.sides) keep_sides(result);
     return result;
@@ -247,7 +264,7 @@ class ResultReader {
       return at != sides_.end() && *at == v ? static_cast<int>(at - sides_.begin()) : -1;
     };
     std::vector<ResultVariable> variables;
-    for (const int v : sides_) variables.push_back(result.variables[static_cast<std::size_t>(v)]);
+    for (const int v : sides_) variables.push_back(result.variables[v]);
     for (Angle& a : result.angles) {
       a.cosine = place(a.cosine);
       a.sine = place(a.sine);
@@ -258,30 +275,8 @@ class ResultReader {
     result.variables = std::move(variables);
   }
 
-  std::vector<CoverBox> read_list_of_boxes(const std::string& group, std::size_t n, std::size_t outputs) {
-    std::vector<CoverBox> boxes = read_boxes(file_, group, n, reading_.sides ? &sides_ : nullptr, reading_.free);
-    if (format_ > kOldest) read_into(file_, group + "/", boxes, kReasonField);
-    if (file_.has(group + "/part")) read_into(file_, group + "/", boxes, kPartField);
-    if (outputs == 0) return boxes;
-    const std::vector<std::uint8_t> passages = file_.enumeration(group + "/passage", kPassageWords);
-    const std::vector<double> sides = file_.doubles(group + "/side", boxes.size(), outputs);
-    if (passages.size() != boxes.size()) file_.fail(group + " differ in length");
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      boxes[i].passage = static_cast<Passage>(passages[i]);
-      const auto side = std::span(sides).subspan(i * outputs, outputs);
-      if (boxes[i].passage != Passage::unproven) boxes[i].side.assign(side.begin(), side.end());
-    }
-    return boxes;
-  }
-
   // Names go to terminals and pages: what could steer those is made visible.
   std::string word(const std::string& name) const { return printable_line(file_.attribute<std::string>("/", name)); }
-  std::vector<std::string> words(const std::string& name) const {
-    std::vector<std::string> list = file_.texts(name);
-    for (std::string& text : list) text = printable_line(text);
-    return list;
-  }
-
   void check_counts(const Cover& cover) const {
     const auto counts = cover.counts();
     for (std::size_t v = 0; v < counts.size(); ++v) {
@@ -289,35 +284,6 @@ class ResultReader {
       if (file_.attribute<std::uint64_t>("/boxes", name) != counts[v])
         file_.fail("the attribute " + name + " of /boxes contradicts the boxes");
     }
-  }
-
-  void read_types(Cover& cover) const {
-    if (!file_.has_attribute("/boxes", "types_asked")) return;  // none were asked for
-    const auto types = [&](const char* name) { return static_cast<TypeSet>(file_.integer("/boxes", name, 0, kAllTypes)); };
-    cover.types = {types("types_asked"), types("types_of_set"), file_.attribute<std::uint64_t>("/boxes", "types_left_out")};
-    read_into(file_, "/boxes/", cover.boxes, kTypeFields);
-    read_into(file_, "/points/", cover.points, kTypeFields);
-  }
-
-  void read_options(RunOptions& options) const {
-    options.constants = read_constants(file_, "/options/constants/");
-    if (file_.has("/options/outputs")) options.outputs = words("/options/outputs");
-    StoredAttributes attributes{.from = &file_, .object = "/options"};
-    options.sigma = sigma("/options");
-    kFurtherOptions(attributes, options);
-    if (!options.kernel.empty() && options.kernel != "right" && options.kernel != "left")
-      file_.fail("the attribute kernel of /options is neither right nor left: '" + options.kernel + "'");
-    if (format_ == kOldest) return;
-    kKernelOptions(attributes, options);
-    options.kernel_scales = words("/options/kernel_scales");
-  }
-
-  Sigma sigma(const char* object) const {
-    Sigma sigma;
-    if (format_ == kOldest) return {file_.attribute<double>(object, "sigma"), file_.attribute<double>(object, "sigma")};
-    StoredAttributes attributes{.from = &file_, .object = object};
-    kSigma(attributes, sigma);
-    return sigma;
   }
 
   Hdf5Reader file_;

@@ -12,7 +12,7 @@
 //                       the attribute types of /boxes; attributes types_asked, types_of_set, types_left_out. Absent where
 //                       none were asked for
 //   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes
-//   /certificates/…     what `corank verify` needs, see result/certificate_file.h
+//   /certificates/…     what `corank verify` needs, see result/cover_group.h
 //   /parts/0, /parts/1 …   where the set consists of parts: each as the root, but for model and set, with the attribute
 //                       part; the root's boxes are theirs, and /boxes/part says whose
 //   /outputs, /boxes/passage, /boxes/side   of a workspace boundary

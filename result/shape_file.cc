@@ -1,15 +1,9 @@
-#include "corank/result/shape_file.h"
-
-#include <fmt/format.h>
-
+// The file of a set's shape.
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "corank/result/cover_group.h"
-#include "corank/result/printable.h"
-#include "corank/result/stored_list.h"
-#include "corank/symbolic/algebrizer.h"
+#include "corank/result/source_group.h"
 #include "corank/symbolic/critical_points.h"
 
 namespace corank::result {
@@ -19,20 +13,15 @@ constexpr int kMostHeights = 16, kMostHeightNumber = 1000, kMostVariables = 100'
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();  // of a number that is not claimed
 
 System space_of(const symbolic::Mechanism& model) {
-  return symbolic::algebrize(
-      model.is_plain_system() ? symbolic::plain_system(model)
-                              : symbolic::singularity_system(model, symbolic::SingularitySet::cspace, std::nullopt, {}, 1));
+  return symbolic::algebrize(model.is_plain_system()
+                                 ? symbolic::plain_system(model)
+                                 : symbolic::singularity_system(model, symbolic::SingularitySet::cspace));
 }
 
 check::CriticalSystem critical_system(const symbolic::Mechanism& model, int height) {
   const symbolic::CriticalPoints critical = symbolic::critical_points(model, height);
-  const auto matrix = [&](const symbolic::ExpressionMatrix& m) {
-    PolynomialMatrix result{static_cast<int>(m.rows.size()), static_cast<int>(critical.names.size()), {}};
-    for (const auto& row : m.rows)
-      for (Polynomial& f : symbolic::polynomials(critical.system, row)) result.entries.push_back(std::move(f));
-    return result;
-  };
-  return {symbolic::algebrize(critical.system), matrix(critical.hessian), matrix(critical.jacobian),
+  return {symbolic::algebrize(critical.system), polynomials(critical.system, critical.hessian),
+          polynomials(critical.system, critical.jacobian),
           symbolic::polynomials(critical.system, {critical.multiplier}).front()};
 }
 
@@ -59,73 +48,53 @@ auto count_fields(const char* name) {
   return [name](auto& field, auto& count) { field(name, count, 0, kMostCount); };
 }
 
-void write_claim(Hdf5Writer& file, const char* name, const std::optional<int>& claim) {
-  file.attribute("/", name, claim ? std::int64_t{*claim} : kNone);
-}
-
-std::optional<int> read_claim(const Hdf5Reader& file, const char* name, int least) {
-  if (file.attribute<std::int64_t>("/", name) == kNone) return std::nullopt;
-  return file.integer("/", name, least, kMostCount);
+template <class File, class Data>
+void store_shape(File& to, Data& data) {
+  constexpr bool writes = StoredPart<File>::kWrites;
+  const StoredPart file(to);
+  const symbolic::Mechanism model = model_of(data);
+  const System space = space_of(model);
+  const std::size_t n = space.variables.size();
+  auto& shape = data.shape;
+  int heights = static_cast<int>(shape.heights.size());
+  if constexpr (writes) to.attribute("/", "variables", static_cast<std::int64_t>(n));
+  file("heights", heights, 0, kMostHeights);
+  file("at_least", shape.at_least, 0, kMostCount);
+  file.optional("at_most", shape.at_most, 0, kMostCount, kNone);
+  file.optional("euler_characteristic", shape.euler_characteristic, -kMostCount, kMostCount, kNone);
+  file.list("/", shape.genus, count_fields("genus"));
+  file.same("/variables", names(space), "its variables are not those of the model");
+  if constexpr (!writes) shape.space = read_cover(to, "/space", n);
+  const std::size_t dimension = shape.space.dimension;
+  file.list("/links/", shape.links, link_fields(n, dimension));
+  file.list("/bridges/", shape.bridges, bridge_fields(n, dimension));
+  if constexpr (writes) write_cover(to, "/space", shape.space, n);
+  if constexpr (!writes) shape.heights.resize(heights);
+  for (std::size_t k = 0; k < shape.heights.size(); ++k) {
+    auto& height = shape.heights[k];
+    if constexpr (!writes) {
+      to.enter(height_group(k));
+      file("height", height.height, 0, kMostHeightNumber);
+    }
+    const std::vector<std::string> unknowns = names(critical_system(model, height.height).system);
+    if constexpr (writes) {
+      write_cover(to, height_group(k), height.cover, unknowns.size());
+      file("height", height.height);
+    }
+    file.same("/variables", unknowns, "the variables of a height are not those of the model");
+    file.list("/", height.by_index, count_fields("by_index"));
+    if constexpr (!writes) height.cover = read_cover(to, height_group(k), unknowns.size());
+  }
 }
 
 }  // namespace
 
 void write_shape(const std::filesystem::path& path, const ShapeFile& data, const Ended& in_haste) {
-  const Shape& shape = data.shape;
-  const symbolic::Mechanism model = model_of(data);
-  const System space = space_of(model);
-  const std::size_t n = space.variables.size(), dimension = static_cast<std::size_t>(shape.space.dimension);
-  write_certificate(path, kShapeKind, data, in_haste, [&](Hdf5Writer& file) {
-    file.attribute("/", "variables", static_cast<std::int64_t>(n));
-    file.attribute("/", "heights", static_cast<std::int64_t>(shape.heights.size()));
-    file.attribute("/", "at_least", std::int64_t{shape.at_least});
-    write_claim(file, "at_most", shape.at_most);
-    write_claim(file, "euler_characteristic", shape.euler_characteristic);
-    write_list(file, "/", shape.genus, count_fields("genus"));
-    file.texts("/variables", names(space));
-    write_list(file, "/links/", shape.links, link_fields(n, dimension));
-    write_list(file, "/bridges/", shape.bridges, bridge_fields(n, dimension));
-    write_cover(file, "/space", shape.space, n);
-    for (std::size_t k = 0; k < shape.heights.size(); ++k) {
-      const HeightCover& height = shape.heights[k];
-      const std::vector<std::string> unknowns = names(critical_system(model, height.height).system);
-      write_cover(file, height_group(k), height.cover, unknowns.size());
-      file.attribute("/", "height", std::int64_t{height.height});
-      file.texts("/variables", unknowns);
-      write_list(file, "/", height.by_index, count_fields("by_index"));
-    }
-  });
+  write_certificate(path, kShapeKind, data, in_haste, [&](Hdf5Writer& file) { store_shape(file, data); });
 }
 
 ShapeFile read_shape(const std::filesystem::path& path) {
-  Hdf5Reader file(path.string());
-  ShapeFile data;
-  read_source(file, kShapeKind, data);
-  const symbolic::Mechanism model = model_of(data);
-  const std::vector<std::string> expected = names(space_of(model));
-  if (file.texts("/variables") != expected) file.fail("its variables are not those of the model");
-  const std::size_t n = expected.size();
-  Shape& shape = data.shape;
-  shape.at_least = file.integer("/", "at_least", 0, kMostCount);
-  shape.at_most = read_claim(file, "at_most", 0);
-  shape.euler_characteristic = read_claim(file, "euler_characteristic", -kMostCount);
-  shape.genus = read_list<int>(file, "/", count_fields("genus"));
-  shape.space = read_cover(file, "/space", n);
-  const auto dimension = static_cast<std::size_t>(shape.space.dimension);
-  shape.links = read_list<SheetLink>(file, "/links/", link_fields(n, dimension));
-  shape.bridges = read_list<SheetBridge>(file, "/bridges/", bridge_fields(n, dimension));
-  shape.heights.resize(static_cast<std::size_t>(file.integer("/", "heights", 0, kMostHeights)));
-  for (std::size_t k = 0; k < shape.heights.size(); ++k) {
-    HeightCover& height = shape.heights[k];
-    file.enter(height_group(k));
-    height.height = file.integer("/", "height", 0, kMostHeightNumber);
-    height.by_index = read_list<int>(file, "/", count_fields("by_index"));
-    const std::vector<std::string> unknowns = file.texts("/variables");
-    if (unknowns != names(critical_system(model, height.height).system))
-      file.fail("the variables of a height are not those of the model");
-    height.cover = read_cover(file, height_group(k), unknowns.size());
-  }
-  return data;
+  return read_certificate<ShapeFile>(path, kShapeKind, [](Hdf5Reader& file, ShapeFile& data) { store_shape(file, data); });
 }
 
 check::ShapeReport verify(const ShapeFile& file, const check::Options& options) {
@@ -155,22 +124,19 @@ std::string to_table(const check::ShapeReport& report, const ShapeFile& file) {
 }
 
 std::string to_json(const check::ShapeReport& report, const ShapeFile& file) {
-  using Json = nlohmann::ordered_json;
-  const auto or_null = [](const std::optional<int>& x) { return x ? Json(*x) : Json(); };
-  Json json{{"verified", report.verified()},
-            {"complete", report.complete()},
-            {"interrupted", report.interrupted},
-            {"components", {{"at_least", file.shape.at_least}, {"at_most", or_null(file.shape.at_most)}}},
-            {"confirmed", {{"at_least", report.at_least}, {"at_most", report.at_most}}},
-            {"euler_characteristic", or_null(file.shape.euler_characteristic)},
-            {"genus", file.shape.genus},
-            {"critical_points", report.by_index},
-            {"sheets", report.sheets},
-            {"links", report.links},
-            {"contacts_excluded", report.apart},
-            {"failures", report.failures}};
-  if (report.interrupted) json["stage"] = report.stage;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  const Shape& shape = file.shape;
+  return ended_json({{"verified", report.verified()},
+                     {"complete", report.complete()},
+                     {"interrupted", report.interrupted},
+                     {"components", {{"at_least", shape.at_least}, {"at_most", or_null(shape.at_most)}}},
+                     {"confirmed", {{"at_least", report.at_least}, {"at_most", report.at_most}}},
+                     {"euler_characteristic", or_null(shape.euler_characteristic)},
+                     {"genus", shape.genus},
+                     {"critical_points", report.by_index},
+                     {"sheets", report.sheets},
+                     {"links", report.links},
+                     {"contacts_excluded", report.apart}},
+                    report, report.failures);
 }
 
 }  // namespace corank::result

@@ -1,12 +1,6 @@
 #include "corank/result/source_group.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "corank/result/output_file.h"
-#include "corank/result/printable.h"
-#include "corank/result/stored_list.h"
 
 namespace corank::result {
 
@@ -18,21 +12,6 @@ symbolic::Mechanism model_of(const ModelSource& source) {
   return model_of(result);
 }
 
-namespace {
-constexpr auto kConstant = [](auto& field, auto& constant) {
-  field("names", constant.name);
-  field("expressions", constant.expression);
-};
-}  // namespace
-
-void write_constants(Hdf5Writer& file, const std::string& group, const std::vector<ConstantOverride>& constants) {
-  write_list(file, group, constants, kConstant);
-}
-
-std::vector<ConstantOverride> read_constants(const Hdf5Reader& file, const std::string& group) {
-  return read_list<ConstantOverride>(file, group, kConstant);
-}
-
 void write_certificate(const std::filesystem::path& path, const CertificateKind& kind, const ModelSource& source,
                        const Ended& in_haste, const std::function<void(Hdf5Writer&)>& write) {
   const OutputFile target(path);
@@ -42,7 +21,7 @@ void write_certificate(const std::filesystem::path& path, const CertificateKind&
   file.attribute("/", "version", source.version);
   file.attribute("/", "model", source.model);
   file.text("/model/text", source.model_text);
-  write_constants(file, "/model/constants/", source.constants);
+  write_list(file, "/model/constants/", source.constants, kConstant);
   write(file);
   file.close();
   target.finish();
@@ -56,13 +35,20 @@ void read_source(const Hdf5Reader& file, const CertificateKind& kind, ModelSourc
   source.version = file.attribute<std::string>("/", "version");
   source.model = file.attribute<std::string>("/", "model");
   source.model_text = file.text("/model/text");
-  source.constants = read_constants(file, "/model/constants/");
+  source.constants = read_list<ConstantOverride>(file, "/model/constants/", kConstant);
 }
 
 std::vector<std::string> names(const System& system) {
   std::vector<std::string> list;
   for (const Variable& v : system.variables) list.push_back(v.name);
   return list;
+}
+
+PolynomialMatrix polynomials(const symbolic::TrigonometricSystem& system, const symbolic::ExpressionMatrix& matrix) {
+  PolynomialMatrix result{static_cast<int>(matrix.rows.size()), static_cast<int>(matrix.columns.size()), {}};
+  for (const auto& row : matrix.rows)
+    for (Polynomial& f : symbolic::polynomials(system, row)) result.entries.push_back(std::move(f));
+  return result;
 }
 
 std::string failure_lines(const std::vector<std::string>& failures) {

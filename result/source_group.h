@@ -1,41 +1,45 @@
-// What all certificates' files have in common: their beginning, which program made them and the model that they speak of;
-// and the end of what is printed of their check.
+// What the files of claims (result/claim_files.h) have in common: how they begin, and how what is printed of their check
+// ends.
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
+#include <fmt/format.h>
 
-#include "corank/result/hdf5_file.h"
-#include "corank/result/result.h"
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "corank/result/claim_files.h"
+#include "corank/result/stored_list.h"
+#include "corank/result/words.h"
+#include "corank/symbolic/algebrizer.h"
 
 namespace corank::result {
-
-struct ModelSource {
-  std::string version = result::version();  ///< of the corank that made it
-  std::string model, model_text;            ///< as Result::model, model_text
-  std::vector<ConstantOverride> constants{};
-};
 
 /// The model with its constants put in. Throws symbolic::ModelError.
 symbolic::Mechanism model_of(const ModelSource& source);
 
-struct CertificateKind {
-  const char* format;  ///< what format_of() says of the file
-  int version = 1;
-};
-
-/// Writes the source, and then what `write` writes. Once `in_haste` says so, what is left is written as it is.
+/// Writes the source, and then what `write` writes.
 void write_certificate(const std::filesystem::path& path, const CertificateKind& kind, const ModelSource& source,
                        const Ended& in_haste, const std::function<void(Hdf5Writer&)>& write);
 /// Refuses files of another kind or version.
 void read_source(const Hdf5Reader& file, const CertificateKind& kind, ModelSource& source);
+/// Reads the source, and then what `read` reads.
+template <class File, class Read>
+File read_certificate(const std::filesystem::path& path, const CertificateKind& kind, const Read& read) {
+  Hdf5Reader file(path.string());
+  File data;
+  read_source(file, kind, data);
+  read(file, data);
+  return data;
+}
 
-void write_constants(Hdf5Writer& file, const std::string& group, const std::vector<ConstantOverride>& constants);
-std::vector<ConstantOverride> read_constants(const Hdf5Reader& file, const std::string& group);
+constexpr auto kConstant = [](auto& field, auto& constant) {
+  field("names", constant.name);
+  field("expressions", constant.expression);
+};
 
 std::vector<std::string> names(const System& system);
+/// The matrix in the variables of the system's polynomials.
+PolynomialMatrix polynomials(const symbolic::TrigonometricSystem& system, const symbolic::ExpressionMatrix& matrix);
 
 /// A line for each of the first ones, printable, and how many more there are.
 std::string failure_lines(const std::vector<std::string>& failures);
@@ -48,6 +52,16 @@ std::string conclusion(const Report& report, const std::vector<std::string>& fai
   return lines + (report.interrupted && failures.empty()
                       ? "interrupted in " + report.stage + "; nothing is said about the rest\n"
                       : "NOT VERIFIED\n");
+}
+/// An object's last members.
+template <class Report>
+std::string ended_json(nlohmann::ordered_json json, const Report& report, const std::vector<std::string>& failures) {
+  json["failures"] = failures;
+  if (report.interrupted) json["stage"] = report.stage;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+inline nlohmann::ordered_json or_null(const std::optional<int>& x) {
+  return x ? nlohmann::ordered_json(*x) : nlohmann::ordered_json();
 }
 
 }  // namespace corank::result

@@ -1,7 +1,5 @@
 #include "corank/result/stored_list.h"
 
-#include "corank/result/printable.h"
-
 namespace corank::result {
 
 std::string StoredList::text_of(const RationalPolynomial& f) {

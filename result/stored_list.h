@@ -15,7 +15,7 @@
 #include "corank/core/check.h"
 #include "corank/core/exact_point.h"
 #include "corank/result/hdf5_file.h"
-#include "corank/result/printable.h"
+#include "corank/result/words.h"
 
 namespace corank::result {
 
@@ -189,26 +189,86 @@ std::vector<T> read_list(const Hdf5Reader& file, const std::string& prefix, cons
   return list;
 }
 
-/// Attributes of one object: field("threads", options.threads, 0, 1000). Writes where it has a writer.
-struct StoredAttributes {
-  Hdf5Writer* to = nullptr;
-  const Hdf5Reader* from = nullptr;
-  const char* object = "/";
+/// What a file holds of one value, listed once for writing and reading: attributes of an object, lists, texts. `File` is
+/// Hdf5Writer or Hdf5Reader.
+template <class File>
+class StoredPart {
+ public:
+  static constexpr bool kWrites = std::is_same_v<File, Hdf5Writer>;
 
+  explicit StoredPart(File& file, const char* object = "/") : file_(file), object_(object) {}
+
+  /// An attribute: file("threads", options.threads, 0, 1000).
   template <class X>
-  void operator()(const char* name, X& x, std::int64_t least = 0, std::int64_t most = 0) {
+  void operator()(const char* name, X& x, std::int64_t least = 0, std::int64_t most = 0) const {
     using Plain = std::remove_const_t<X>;
-    using Stored = std::conditional_t<std::is_same_v<Plain, int> || std::is_same_v<Plain, bool>, std::int64_t, Plain>;
-    if constexpr (std::is_const_v<X>) {
-      to->attribute(object, name, static_cast<Stored>(x));
-    } else if constexpr (std::is_same_v<Plain, int>) {
-      x = from->integer(object, name, least, most);
+    constexpr bool is_small = std::is_integral_v<Plain> && sizeof(Plain) < sizeof(std::int64_t);
+    using Stored = std::conditional_t<is_small, std::int64_t, Plain>;
+    if constexpr (kWrites) {
+      file_.attribute(object_, name, static_cast<Stored>(x));
+    } else if constexpr (is_small && !std::is_same_v<Plain, bool>) {
+      x = static_cast<X>(file_.integer(object_, name, least, most));
     } else if constexpr (std::is_same_v<Plain, std::string>) {
-      x = printable_line(from->attribute<Stored>(object, name));
+      x = printable_line(file_.template attribute<Stored>(object_, name));
     } else {
-      x = static_cast<X>(from->attribute<Stored>(object, name));
+      x = static_cast<X>(file_.template attribute<Stored>(object_, name));
     }
   }
+  /// An attribute that is `none` where nothing is known.
+  void optional(const char* name, auto& x, std::int64_t least, std::int64_t most, std::int64_t none) const {
+    if constexpr (kWrites) {
+      file_.attribute(object_, name, x ? std::int64_t{*x} : none);
+    } else if (file_.template attribute<std::int64_t>(object_, name) != none) {
+      x = file_.integer(object_, name, least, most);
+    }
+  }
+  template <class List, class Fields>
+  void list(const std::string& prefix, List& list, const Fields& fields, Storage storage = Storage::plain) const {
+    further(prefix, list, fields, storage, false);
+  }
+  /// Fields of values that are there already.
+  template <class List, class Fields>
+  void further(const std::string& prefix, List& list, const Fields& fields, Storage storage = Storage::plain,
+               bool counted = true) const {
+    if constexpr (kWrites) {
+      write_list(file_, prefix, list, fields, storage);
+    } else {
+      read_into(file_, prefix, list, fields, storage, counted);
+    }
+  }
+  void text(const std::string& name, auto& x) const {
+    if constexpr (kWrites) {
+      file_.text(name, x);
+    } else {
+      x = file_.text(name);
+    }
+  }
+  /// Read, they are printable.
+  void texts(const std::string& name, auto& list) const {
+    if constexpr (kWrites) {
+      file_.texts(name, list);
+    } else {
+      list = file_.texts(name);
+      for (std::string& text : list) text = printable_line(text);
+    }
+  }
+  /// Texts that the reader knows.
+  void same(const std::string& name, const std::vector<std::string>& texts, const char* problem) const {
+    if constexpr (kWrites) {
+      file_.texts(name, texts);
+    } else {
+      check(file_.texts(name) == texts, problem);
+    }
+  }
+  /// Where it is read.
+  void check([[maybe_unused]] bool good, [[maybe_unused]] const std::string& problem) const {
+    if constexpr (!kWrites)
+      if (!good) file_.fail(problem);
+  }
+
+ private:
+  File& file_;
+  const char* const object_;
 };
 
 }  // namespace corank::result

@@ -6,14 +6,9 @@
 #include <span>
 
 #include "corank/certify/algebraic_number.h"
-#include "corank/result/assembled.h"
-#include "corank/result/domain_notes.h"
-#include "corank/result/exact_angle.h"
-#include "corank/result/locus_words.h"
-#include "corank/result/motion_words.h"
+#include "corank/result/sentences.h"
 #include "corank/result/tallies.h"
 #include "corank/result/words.h"
-#include "corank/symbolic/singularity_system.h"
 
 namespace corank::result {
 namespace {
@@ -271,12 +266,11 @@ std::string to_table(const Result& result) {
                         result.seems_of_corank);
   text += motions_text(result);
   if (!result.domain.boundary.empty()) text += boundary_text(result.domain);
-  if (const std::size_t wide = cover.wider_than_sigma; wide > 0) {
+  if (const std::size_t wide = cover.wider_than_sigma; wide > 0)
     text += fmt::format("  {} wider than sigma: {}\n", wide,
                         !result.stopped.empty() ? "the search ended before they were cut"
                         : cover.tolerance > 0   ? "the tolerance keeps proven boxes from narrowing"
                                                 : "cutting does not make them narrower, since doubles resolve no more");
-  }
   if (cover.tolerance > 0) {
     const bool over_determined = static_cast<std::size_t>(result.equations) > result.variables.size();
     text += fmt::format("\n{} within a relative tolerance of {:g};\n",

@@ -3,8 +3,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "corank/result/result.h"
+#include "corank/symbolic/left_out.h"
+#include "corank/symbolic/mechanism.h"
+#include "corank/symbolic/singularity_system.h"
 
 namespace corank::result {
 
@@ -29,7 +33,7 @@ std::string to_table(const Result& result);
 /// is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns as they are, angles in radians in
 /// place of their sines and cosines; of a robot from parts also joints{name: value} and links{name: {position, rotation}},
 /// poses in the world at the middle of the point's box. `meaning` is null, or what cusps or nodes say of the robot
-/// (locus_words.h); `node_distance` is null, or how far apart the two configurations of a node are at least, whose values
+/// (sentences.h); `node_distance` is null, or how far apart the two configurations of a node are at least, whose values
 /// stand side by side: x and x_2. `kernel` is null where its dimension is not known, else at_most{bound: boxes}, without
 /// undecided boxes that hold no known point, and points, where the dimension is known to be 2 or more: a list of {dimension,
 /// exact{name: text}}.
@@ -41,5 +45,13 @@ std::string to_table(const Result& result);
 /// boundary: boundary{barrier, traversable, unproven, outputs}, in boxes, parts[{part, boxes, verdicts, boundary,
 /// seconds}], and area{lo, hi} where that was found; it is no part of the result.
 std::string to_json(const Result& result, const std::optional<Interval>& area = std::nullopt);
+
+/// {"model", "robot", "constants", "coordinates", "inputs", "outputs", "constraints", "velocity", "left_out", "set",
+/// "systems"}: the constraints, velocity equation and systems of a set, each expression in the model language. `robot`: of
+/// parts, what they make. Without systems only the model's own members. `left_out`: what a robot's equations go without;
+/// each follows from the constraints and rows with these numbers, from 1.
+std::string derivation_json(const symbolic::Mechanism& mechanism, const std::optional<std::string>& robot,
+                            const std::vector<symbolic::LeftOut>& left_out, const std::string& set,
+                            const std::vector<symbolic::TrigonometricSystem>& systems);
 
 }  // namespace corank::result

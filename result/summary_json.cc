@@ -1,17 +1,54 @@
+#include "corank/result/summary.h"
+
 #include <nlohmann/json.hpp>
 
 #include "corank/certify/algebraic_number.h"
-#include "corank/result/assembled.h"
-#include "corank/result/domain_notes.h"
-#include "corank/result/exact_angle.h"
-#include "corank/result/locus_words.h"
-#include "corank/result/motion_words.h"
-#include "corank/result/summary.h"
+#include "corank/result/sentences.h"
 #include "corank/result/tallies.h"
+#include "corank/result/words.h"
+#include "corank/symbolic/velocity_equation.h"
 
 namespace corank::result {
 namespace {
+
 using Json = nlohmann::ordered_json;
+
+Json to_json(const symbolic::TrigonometricSystem& system) {
+  Json json{{"name", system.name}, {"unknowns", Json::array()}};
+  const auto unknown = [&](const std::string& name, int lower, int upper) {
+    json["unknowns"].push_back({{"name", name}, {"lower", std::to_string(lower)}, {"upper", std::to_string(upper)}});
+  };
+  for (const auto* names : {&system.kernel_unknowns, &system.second_unknowns})
+    for (const std::string& name : *names) unknown(name, -1, 1);
+  for (const auto& [name, lower, upper] : system.further_unknowns) unknown(name, lower, upper);
+  const auto put = [&](const char* name, const std::vector<symbolic::TrigonometricSystem::Equation>& equations) {
+    json[name] = Json::array();
+    for (const auto& e : equations) json[name].push_back({{"relation", e.relation.text()}, {"source", e.source}});
+  };
+  put("equations", system.equations);
+  put("inequalities", system.inequalities);
+  put("implied", system.claimed);
+  return json;
+}
+
+Json to_json(const symbolic::Coordinate& c) {
+  Json json{{"name", c.name}, {"kind", c.kind == symbolic::CoordinateKind::angle ? "angle" : "length"}};
+  json["lower"] = c.has_range ? Json(c.lower.text()) : Json();
+  json["upper"] = c.has_range ? Json(c.upper.text()) : Json();
+  return json;
+}
+
+Json to_json(const symbolic::VelocityEquation& velocity) {
+  Json json{{"given", velocity.given}, {"columns", velocity.matrix.columns}, {"rows", Json::array()}};
+  for (const auto& row : velocity.matrix.rows) {
+    Json entries = Json::array();
+    for (const symbolic::Expression& e : row) entries.push_back(e.text());
+    json["rows"].push_back(std::move(entries));
+  }
+  return json;
+}
+
+Json ends(const Interval& x) { return {{"lo", x.lo()}, {"hi", x.hi()}}; }
 
 // The coordinates of an exact point that have a short text.
 Json exact_json(const Result& result, const ExactPoint& point) {
@@ -82,8 +119,7 @@ Json sample_json(const Result& result) {
   const std::optional<Sample> found = sample(result);
   if (!found) return {};
   Json json = Json::object();
-  for (const Value& v : values(*found->of, *found->box, found->of->configuration_size))
-    json[v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
+  for (const Value& v : values(*found->of, *found->box, found->of->configuration_size)) json[v.name] = ends(v.value);
   return json;
 }
 
@@ -96,6 +132,34 @@ void add_state(Json& entry, const RobotState& state) {
 }
 
 }  // namespace
+
+std::string derivation_json(const symbolic::Mechanism& mechanism, const std::optional<std::string>& robot,
+                            const std::vector<symbolic::LeftOut>& left_out, const std::string& set,
+                            const std::vector<symbolic::TrigonometricSystem>& systems) {
+  Json json{{"model", mechanism.name()}};
+  json["robot"] = robot ? Json(*robot) : Json();
+  json["constants"] = Json::object();
+  for (const symbolic::Constant& c : mechanism.constants()) json["constants"][c.name] = c.value.text();
+  json["coordinates"] = Json::array();
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) json["coordinates"].push_back(to_json(c));
+  json["inputs"] = mechanism.inputs();
+  json["outputs"] = mechanism.outputs();
+  if (!systems.empty()) {
+    const symbolic::Derivation derivation = symbolic::derive(mechanism);
+    json["constraints"] = Json::array();
+    for (const symbolic::Expression& phi : derivation.phi) json["constraints"].push_back(phi.text());
+    json["velocity"] = to_json(derivation.velocity);
+    json["left_out"] = Json::array();
+    for (const symbolic::LeftOut& e : left_out)
+      json["left_out"].push_back({{"relation", e.relation()},
+                                  {"source", e.source()},
+                                  {"follows_from", {{"constraints", e.equations}, {"velocity", e.rows}}}});
+  }
+  json["set"] = set;
+  json["systems"] = Json::array();
+  for (const symbolic::TrigonometricSystem& system : systems) json["systems"].push_back(to_json(system));
+  return json.dump(2);
+}
 
 std::string to_json(const Result& result, const std::optional<Interval>& area) {
   const Cover& cover = result.cover;
@@ -153,16 +217,15 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
   json["ranges_found"] = Json::object();
   for (const int j : result.domain.found) {
     const ResultVariable& v = result.variables[j];
-    json["ranges_found"][v.name] = {{"lo", v.domain.lo()}, {"hi", v.domain.hi()}};
+    json["ranges_found"][v.name] = ends(v.domain);
   }
   json["points"] = nullptr;
   if (cover.dimension == 0) {
     json["points"] = Json::array();
     for (const CoverBox& point : cover.points) {
       Json entry = {{"values", Json::object()}, {"verdict", to_string(point.verdict)}};
-      for (const Value& v : values(result, point, static_cast<int>(result.variables.size()))) {
-        entry["values"][v.name] = {{"lo", v.value.lo()}, {"hi", v.value.hi()}};
-      }
+      for (const Value& v : values(result, point, static_cast<int>(result.variables.size())))
+        entry["values"][v.name] = ends(v.value);
       if (cover.types.asked != 0) {
         const bool known = holds_a_solution(point);
         entry["types"] = type_names(known ? point.types.proven : TypeSet{});
@@ -183,7 +246,7 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
   json["node_distance"] = distance ? Json(*distance) : Json();
   json["kernel"] = kernel_json(result);
   if (!result.outputs.empty()) json["boundary"] = passages_json(result);
-  if (area) json["area"] = {{"lo", area->lo()}, {"hi", area->hi()}};
+  if (area) json["area"] = ends(*area);
   if (!result.parts.empty()) json["parts"] = parts_json(result);
   json["types"] = types_json(cover);
   if (cover.types.left_out > 0) json["left_out"] = cover.types.left_out;

@@ -15,6 +15,12 @@ inline constexpr std::array kVerdictsInOrder{Verdict::regular, Verdict::isolated
                                              Verdict::partial, Verdict::undecided, Verdict::pending};
 static_assert(kVerdictsInOrder.size() == kVerdicts);
 
+/// Is there a solution in such a box that is surely within the ranges? A `boundary` box may hold one outside, a `partial`
+/// one none.
+inline bool is_surely_within(Verdict verdict) {
+  return verdict == Verdict::regular || verdict == Verdict::isolated || verdict == Verdict::exact;
+}
+
 /// How many of the items are so.
 template <class Items, class Is>
 std::size_t how_many(const Items& items, const Is& is) {

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "corank/result/assembled.h"
 #include "corank/result/hdf5_file.h"
-#include "corank/result/printable.h"
+#include "corank/result/sentences.h"
 #include "corank/result/summary.h"
+#include "corank/result/words.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/printer.h"
@@ -126,17 +126,10 @@ Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.fa
 
 // Of a part, or of what all parts have in common.
 System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
-  if (result.part.empty()) {
-    System system = symbolic::configurations(mechanism);
-    system.coefficient_tolerance = result.options.tolerance;
-    return system;
-  }
-  for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, set)) {
-    if (text(part) != result.part) continue;
-    System system = symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
-    system.coefficient_tolerance = result.options.tolerance;
-    return system;
-  }
+  if (result.part.empty()) return symbolic::configurations(mechanism);
+  for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, set))
+    if (text(part) == result.part)
+      return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
   throw ResultFileError("the result's model has no part '" + result.part + "'");
 }
 
@@ -254,11 +247,12 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (mechanism.is_plain_system() ? result.set != symbolic::definition(std::nullopt).name : !set)
     throw ResultFileError("the result's model has no set '" + result.set + "'");
-  if (set && (symbolic::definition(set).of_parts || !result.part.empty() || !result.parts.empty()))
-    return system_of_part(mechanism, *set, result);
+  const bool parts = set && (symbolic::definition(set).of_parts || !result.part.empty() || !result.parts.empty());
   System system =
-      symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
+      parts ? system_of_part(mechanism, *set, result)
+            : symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
   system.coefficient_tolerance = result.options.tolerance;
+  if (parts) return system;
   try {
     system.validate();
   } catch (const std::invalid_argument& error) {
@@ -321,12 +315,11 @@ std::vector<std::string> contradictions(const Result& result, const System& syst
     check(!variables || a.domain == b.domain, "the domain of " + b.name + " is");
   }
   check(variables, "the list of variables is");
-  bool angles = result.angles.size() == expected.angles.size();
-  for (std::size_t i = 0; angles && i < expected.angles.size(); ++i) {
-    const Angle &a = result.angles[i], &b = expected.angles[i];
-    angles = a.name == b.name && a.cosine == b.cosine && a.sine == b.sine && a.range == b.range;
-  }
-  check(angles, "the list of angles is");
+  check(std::ranges::equal(result.angles, expected.angles,
+                           [](const Angle& a, const Angle& b) {
+                             return a.name == b.name && a.cosine == b.cosine && a.sine == b.sine && a.range == b.range;
+                           }),
+        "the list of angles is");
   check(result.configuration_size == expected.configuration_size, "the number of configuration variables is");
   check(result.equations == expected.equations, "the number of equations is");
   check(result.inequalities == expected.inequalities, "the number of inequalities is");
@@ -347,8 +340,7 @@ std::string to_table(const Verification& verification, const Result& result) {
   for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
   if (!verification.contradictions.empty()) return printable(text + "NOT VERIFIED: nothing else was checked\n");
   text += fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", "verdict", "verified", "failed", "not checkable");
-  for (int v = 0; v < kVerdicts; ++v)
-    text += row(to_string(static_cast<Verdict>(v)), report.boxes[static_cast<std::size_t>(v)]);
+  for (int v = 0; v < kVerdicts; ++v) text += row(to_string(static_cast<Verdict>(v)), report.boxes[v]);
   text += row("points", report.points) + row("exact points", report.exact_points);
   text += "\n" + completeness(report, result.cover.complete());
   text += assembly_text(verification, result);
@@ -371,8 +363,7 @@ std::string to_json(const Verification& verification) {
   json["interrupted"] = report.interrupted;
   if (report.interrupted) json["stage"] = report.stage;
   if (report.left_out > 0) json["not_in_sample"] = report.left_out;
-  for (int v = 0; v < kVerdicts; ++v)
-    json["verdicts"][to_string(static_cast<Verdict>(v))] = to_json(report.boxes[static_cast<std::size_t>(v)]);
+  for (int v = 0; v < kVerdicts; ++v) json["verdicts"][to_string(static_cast<Verdict>(v))] = to_json(report.boxes[v]);
   json["points"] = to_json(report.points);
   json["exact_points"] = to_json(report.exact_points);
   json["assembled"] = verification.assembled ? Json(*verification.assembled) : Json();

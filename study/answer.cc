@@ -1,16 +1,19 @@
 #include "corank/study/answer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "corank/certify/kernel_bound.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
-#include "corank/result/motion_words.h"
+#include "corank/result/sentences.h"
 #include "corank/solve/box_labels.h"
 #include "corank/solve/corank_system.h"
 #include "corank/solve/exactness.h"
 #include "corank/study/run_journal.h"
 #include "corank/study/search_steps.h"
+#include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/velocity_blocks.h"
 
@@ -25,13 +28,31 @@ std::string kernel_of(const Question& q) {
   return to_string(symbolic::kernel_question(q.model, *q.set, q.kernel).side);
 }
 
-result::Result answer_one(const Question& question, const System& system, const Options& options, solve::Control& control,
-                          RunJournal* journal) {
-  const Asked asked = prepare(question, system, options, control);
-  const solve::Prepared& prepared = asked.prepared;
-  Cover cover = journal ? solve::solve_on(prepared, control, journal, journal->next_search(prepared))
-                        : solve::solve(prepared, control);
-  return finish(question, system, options, asked, std::move(cover), control);
+// What a solution means for a robot, one for each point of a set of dimension 0: values of its joints, poses of its links.
+void describe_states(const kinematics::Assembly& assembly, result::Result& result) {
+  result.states.clear();
+  std::map<std::string, double> constants;
+  for (const symbolic::Constant& c : assembly.mechanism.constants())
+    constants[c.name] = symbolic::evaluate(c.value, constants);
+  for (const CoverBox& point : result.cover.points) {
+    std::map<std::string, double> values = constants;
+    for (std::size_t v = 0; v < point.box.size(); ++v) values[result.variables[v].name] = point.box[v].mid();
+    for (const Angle& angle : result.angles)
+      values[angle.name] = std::atan2(point.box[angle.sine].mid(), point.box[angle.cosine].mid());
+    result::RobotState& state = result.states.emplace_back();
+    for (const auto& joint : assembly.joint_values) {
+      const double value = symbolic::evaluate(joint.value, values);
+      state.joints.push_back({joint.joint, joint.sine ? std::atan2(symbolic::evaluate(*joint.sine, values), value) : value});
+    }
+    for (const auto& pose : assembly.poses) {
+      result::RobotState::LinkPose& link = state.links.emplace_back();
+      link.link = pose.link;
+      for (std::size_t i = 0; i < 3; ++i) {
+        link.position[i] = symbolic::evaluate(pose.origin[i], values);
+        for (std::size_t j = 0; j < 3; ++j) link.rotation[i][j] = symbolic::evaluate(pose.rotation[i][j], values);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -103,8 +124,12 @@ result::Result answer(const Systems& systems, const Options& options, solve::Con
   if (journal) journal->expect(parts.size());
   CORANK_CHECK(!parts.empty() && parts.size() == of_parts.size());
   std::vector<result::Result> results;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    results.push_back(answer_one(parts[i], of_parts[i], options, control, journal));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Asked asked = prepare(parts[i], of_parts[i], options, control);
+    Cover cover = journal ? solve::solve_on(asked.prepared, control, journal, journal->next_search(asked.prepared))
+                          : solve::solve(asked.prepared, control);
+    results.push_back(finish(parts[i], of_parts[i], options, asked, std::move(cover), control));
+  }
   result::Result result = join(parts, std::move(results));
   search_assembly(parts.front(), control, result);
   return result;
@@ -112,9 +137,7 @@ result::Result answer(const Systems& systems, const Options& options, solve::Con
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
                       RunJournal* journal) {
-  result::Result result = answer_one(question, system, options, control, journal);
-  search_assembly(question, control, result);
-  return result;
+  return answer(Systems{{question}, {system}}, options, control, journal);
 }
 
 std::optional<VelocityBlocks> type_blocks(const Question& q) {

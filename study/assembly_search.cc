@@ -26,7 +26,7 @@ bool is_inside(const CoverBox& box) { return box.verdict == Verdict::regular || 
 std::optional<Cover> at_its_middle(const System& system, const CoverBox& sheet, solve::Control& control) {
   solve::Options options{.sigma = kUncut, .roots = {sheet.box}};
   for (const int v : sheet.free) {
-    Interval& side = options.roots.front()[static_cast<std::size_t>(v)];
+    Interval& side = options.roots.front()[v];
     side = Interval(side.mid());
   }
   Cover cover = search(system, options, control);

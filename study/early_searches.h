@@ -33,8 +33,6 @@ class EarlySearches {
   /// Makes none where `threads` is 1.
   EarlySearches(std::vector<EarlyTask> tasks, int threads);
   ~EarlySearches();
-  EarlySearches(const EarlySearches&) = delete;
-  EarlySearches& operator=(const EarlySearches&) = delete;
 
   /// What task i has found, for describe(), each asked for once and in ascending order; waits for it. Nothing where the
   /// search is not small or like one that was not, where a limit or an interrupt has ended it, or where it has failed.

@@ -1,4 +1,4 @@
-#include "corank/study/node_search.h"
+#include "corank/study/search_steps.h"
 
 #include "corank/certify/pairs.h"
 #include "corank/core/check.h"
@@ -32,11 +32,11 @@ certify::PairLayout layout_of(const symbolic::Mechanism& mechanism, const System
         if (b.name == symbolic::second_name(mechanism, a.name)) return a.cosine == v ? b.cosine : b.sine;
       return v;
     }
-    const int second = doubled.find(symbolic::second_name(mechanism, locus.variables[static_cast<std::size_t>(v)].name));
+    const int second = doubled.find(symbolic::second_name(mechanism, locus.variables[v].name));
     return second >= 0 ? second : v;
   };
   for (int v = 0; v < q; ++v) {
-    CORANK_CHECK(locus.variables[static_cast<std::size_t>(v)].name == doubled.variables[static_cast<std::size_t>(v)].name);
+    CORANK_CHECK(locus.variables[v].name == doubled.variables[v].name);
     layout.first.push_back(v);
     layout.second.push_back(second_of(v));
   }

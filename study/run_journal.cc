@@ -87,7 +87,6 @@ void RunJournal::keep(const solve::SearchView& state, solve::Moment moment) {
   const bool to_file = ended_ || moment == Moment::paused || (moment == Moment::cut && due());
   if (to_file && !plan_.path.empty()) {
     result::write_checkpoint(plan_.path, solve::engine_version(), known_, state_writer);
-    ++written_;
     asked_ = 0;
     plan_next(begun);
   }

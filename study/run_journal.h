@@ -38,8 +38,6 @@ class RunJournal : public solve::Journal {
   bool due() override;
   void keep(const solve::SearchView& state, solve::Moment moment) override;
 
-  /// How many checkpoints have been written.
-  int written() const { return written_; }
   /// What of the run is to go into its result (result::Result::search): nothing, unless the plan says so.
   std::string take_search() { return std::move(search_); }
   /// Bytes of what a limit has left, nearly, where that is too much for a result; else 0.
@@ -56,7 +54,6 @@ class RunJournal : public solve::Journal {
   bool ended_ = false;
   std::atomic<Clock::duration::rep> next_;
   std::atomic<Clock::duration::rep> asked_{0};
-  int written_ = 0;
   std::string search_;
   std::uint64_t left_out_ = 0;
 };

@@ -4,8 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "corank/solve/control.h"
+#include "corank/solve/solve.h"
 #include "corank/study/answer.h"
-#include "corank/study/node_search.h"
+#include "corank/study/question.h"
 
 namespace corank::study {
 
@@ -32,10 +34,6 @@ void settle(std::optional<symbolic::SingularitySet> set, const std::optional<Vel
 result::Result describe(const Question& question, const System& system, const Options& options, Cover cover,
                         const std::optional<solve::Ending>& ending);
 
-/// Sets Result::states, what a solution means for a robot, one for each point of a set of dimension 0: values of its joints,
-/// poses of its links.
-void describe_states(const kinematics::Assembly& assembly, result::Result& result);
-
 /// Of an empty set: can the robot be assembled within its ranges at all? A robot without singularities and one that exists
 /// nowhere have the same empty set. Where a result is complete and has no box, fills in Result::assembly: a search of
 /// C-space that ends at the first proven configuration, or proves that there is none; and Result::nearly_solved, a hint.
@@ -45,5 +43,17 @@ void search_assembly(const Question& question, solve::Control& control, result::
 
 /// The result of a question from those of its parts (parts_of).
 result::Result join(const std::vector<Question>& parts, std::vector<result::Result> results);
+
+/// Nodes are sought in two steps: first the locus, then pairs of its boxes whose locked coordinates may be the same. The
+/// search over the whole domain would meet every pair of places before it knows that neither is on the locus. This is what
+/// the second one starts from: certify::pairs of the locus's cover.
+struct NodeSearch {
+  std::vector<Box> roots;       ///< none: the whole domain is to be searched, since the pairs are too many
+  std::uint64_t processed = 0;  ///< boxes, for the locus
+};
+
+/// `system`: study::system(question), of forward_nodes or inverse_nodes.
+NodeSearch node_search(const Question& question, const System& system, const solve::Options& options,
+                       solve::Control& control);
 
 }  // namespace corank::study

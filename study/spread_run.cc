@@ -6,7 +6,6 @@
 #include "corank/core/check.h"
 #include "corank/solve/shard_bytes.h"
 #include "corank/study/run_journal.h"
-#include "corank/study/search_steps.h"
 
 namespace corank::study {
 namespace {

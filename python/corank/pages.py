@@ -13,8 +13,8 @@ from .result import PathLike, Result
 if TYPE_CHECKING:
     from .mechanism import Mechanism
 
-#: Of isolated points on a page.
-_DIGITS = 12
+#: Of each search for a page: limits of boxes and seconds; digits of isolated points.
+_BOXES, _SECONDS, _DIGITS = _corank.page_limits
 
 #: The sets that a report has by default.
 USUAL_SETS: Tuple[str, ...] = tuple(s[0] for s in _corank.sets if s[3])
@@ -47,8 +47,8 @@ def report(
     proof: bool = False,
     threads: int = 0,
     max_boxes: int = 0,
-    max_found: int = 200_000,
-    time_limit: float = 8,
+    max_found: int = _BOXES,
+    time_limit: float = _SECONDS,
     results: Optional[Sequence[Result]] = None,
     progress: ProgressOption = None,
 ) -> Report:
@@ -96,7 +96,7 @@ def report(
     if path is None:
         return Report(_corank.report_page(cores, command, [], [], aspects), found, None)
     folder = os.fspath(path)
-    figures = [f"figures/{name}" for name in _corank.write_figures(os.path.join(folder, "figures"), cores)]
+    figures = _corank.write_figures(folder, cores)
     files = [f"{r.set}.h5" for r in found]
     for r, file in zip(found, files):
         r.save(os.path.join(folder, file))

@@ -94,7 +94,7 @@ class Sweep(Sequence[Member]):
         """Writes the page, the results and small multiples for a paper into a folder."""
         folder = os.fspath(path)
         figures = _corank.write_family_figures(
-            os.path.join(folder, "figures"),
+            folder,
             [[r._core for r in m.results.values()] for m in self._members],
             self._members[0].mechanism._core.portrait_axes(),
             [f"{self.constant} = {m.value}" for m in self._members],
@@ -103,7 +103,7 @@ class Sweep(Sequence[Member]):
         for names, m in zip(files, self._members):
             for file, r in zip(names, m.results.values()):
                 r.save(os.path.join(folder, file))
-        page = self.page([f"figures/{name}" for name in figures], files)
+        page = self.page(figures, files)
         page.path = os.path.join(folder, "index.html")
         page.save(page.path)
         return page
@@ -165,7 +165,7 @@ def sweep(
         "max_found": max_found,
         "time_limit": time_limit,
     }
-    options["coarser"] = 2
+    options["coarser"] = _corank.family_coarser
     sigmas = {name: cspace_sigma if name == "cspace" else sigma for name in sets}
     if client is not None:
         return _by_workers(constant, texts, plans, sigmas, {**options, "threads": threads or 1}, command, client, progress)

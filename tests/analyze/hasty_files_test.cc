@@ -7,8 +7,7 @@
 
 #include "corank/analyze/aspects.h"
 #include "corank/analyze/topology.h"
-#include "corank/result/pieces_file.h"
-#include "corank/result/shape_file.h"
+#include "corank/result/claim_files.h"
 #include "corank/study/model.h"
 #include "corank/tests/analyze/map_files.h"
 

@@ -1,5 +1,6 @@
 // A path's file: what is written is read and verified; whatever is changed in it is found out.
-#include "corank/result/path_file.h"
+#include "corank/result/claim_files.h"
+#include "corank/result/hdf5_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // A file of aspects and modes: what is written is read and verified; what is changed is found out.
-#include "corank/result/pieces_file.h"
+#include "corank/result/claim_files.h"
+#include "corank/result/hdf5_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

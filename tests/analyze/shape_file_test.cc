@@ -1,6 +1,7 @@
 // A shape's file: what is written is read and verified; whatever is changed in it is found out, or the counts that are
 // left are true all the same.
-#include "corank/result/shape_file.h"
+#include "corank/result/claim_files.h"
+#include "corank/result/hdf5_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "corank/result/cuik_param.h"
+#include "corank/result/cuik_files.h"
 #include "corank/result/result_file.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"

@@ -7,8 +7,7 @@
 #include <array>
 #include <numbers>
 
-#include "corank/result/cuik_param.h"
-#include "corank/result/cuik_sol.h"
+#include "corank/result/cuik_files.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"

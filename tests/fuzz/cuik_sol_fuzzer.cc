@@ -1,5 +1,5 @@
 // Any bytes may come as a .sol file: parse_sol either returns boxes or throws CuikFileError with a line. What it returns is
-// as cuik_sol.h promises.
+// as cuik_files.h promises.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "corank/result/cuik_sol.h"
+#include "corank/result/cuik_files.h"
 
 namespace {
 

@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "corank/result/printable.h"
 #include "corank/result/result_file.h"
+#include "corank/result/words.h"
 
 namespace {
 

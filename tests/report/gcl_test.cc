@@ -1,4 +1,4 @@
-#include "corank/report/gcl.h"
+#include "corank/report/picture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,8 +21,9 @@ result::SolFile two_boxes() {
   return file;
 }
 
-std::string gcl(const result::SolFile& file, const PictureOptions& options, const GclOptions& names = {}) {
-  return to_gcl(make_picture({picture_source(file, "boxes.sol")}, options), names);
+std::string gcl(const result::SolFile& file, const PictureOptions& options, const std::string& name = "boxes",
+                const std::string& comment = "") {
+  return to_gcl(make_picture({picture_source(file, "boxes.sol")}, options), name, comment);
 }
 PictureOptions plain_axes(std::vector<std::string> names, ColorScheme color = ColorScheme::plain) {
   return {std::move(names), color, 0};
@@ -60,12 +61,12 @@ TEST(Gcl, GivesEachVerdictItsColour) {
 }
 
 TEST(Gcl, KeepsStrangeNamesOutOfGeomviewsLanguage) {
-  const std::string text = gcl(two_boxes(), plain_axes({"x", "y", "z"}), {"a (b) {c}", "line\n(exit)"});
+  const std::string text = gcl(two_boxes(), plain_axes({"x", "y", "z"}), "a (b) {c}", "line\n(exit)");
   EXPECT_THAT(text, HasSubstr("(geometry a__b___c_ { LIST"));
   EXPECT_THAT(text, Not(HasSubstr("\n(exit)")));
 }
 
-TEST(Gcl, RefusesToDrawNothing) { EXPECT_THROW(to_gcl(Picture{}, {}), result::ResultFileError); }
+TEST(Gcl, RefusesToDrawNothing) { EXPECT_THROW(to_gcl(Picture{}, "boxes", ""), result::ResultFileError); }
 
 struct Snapshot {
   int width = 0, height = 0;
@@ -109,7 +110,7 @@ TEST(Gcl, GeomviewShowsTheBoxesInTheirColours) {
   }
   // A window exists before the file is loaded, and is photographed and closed behind it.
   std::ofstream(folder / "scene.gcl") << "(new-camera c0)\n"
-                                      << gcl(file, plain_axes({"1", "2", "3"}, ColorScheme::verdict), {"roof", ""})
+                                      << gcl(file, plain_axes({"1", "2", "3"}, ColorScheme::verdict), "roof", "")
                                       << "(look World c0)\n(redraw c0)\n(snapshot c0 " << (folder / "shot.ppm").string()
                                       << " ppm)\n(exit)\n";
   const std::string at = "'" + folder.string() + "'";

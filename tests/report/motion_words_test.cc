@@ -1,4 +1,4 @@
-#include "corank/result/motion_words.h"
+#include "corank/result/sentences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ std::string words(const std::string& text, const std::vector<std::vector<Part>>&
   result::describe_system(system, result);
   result.cover.self_motions.push_back({dimension, {}});
   for (const auto& parts : relations) result.cover.self_motions[0].relations.push_back(relation(system, parts));
-  result::describe_motions(model, system, result);
+  result::describe_in_words(model, system, result);
   return result.motions.at(0);
 }
 
@@ -101,7 +101,7 @@ TEST(MotionWords, AreNoneForRelationsThatAreNotLinear) {
   result::describe_system(system, result);
   result.cover.self_motions.push_back({1, {}});
   result.cover.self_motions[0].relations.push_back({{{ExactNumber(1), {{0, 2}}}}, ""});
-  result::describe_motions(model, system, result);
+  result::describe_in_words(model, system, result);
   EXPECT_THAT(result.motions, ElementsAre(""));
 }
 
@@ -115,7 +115,7 @@ result::Result rhombus(symbolic::SingularitySet set) {
   result.set = to_string(set);
   result.cover = solve::solve(system);
   result::describe_system(system, result);
-  result::describe_motions(model, system, result);
+  result::describe_in_words(model, system, result);
   return result;
 }
 

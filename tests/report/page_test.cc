@@ -9,7 +9,6 @@
 #include <regex>
 
 #include "corank/report/page_data.h"
-#include "corank/report/page_sections.h"
 #include "corank/result/hdf5_file.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/algebrizer.h"

@@ -14,7 +14,7 @@
 #include <optional>
 #include <sstream>
 
-#include "corank/result/certificate_file.h"
+#include "corank/result/cover_group.h"
 #include "corank/tests/result/sample_result.h"
 
 namespace corank::result {

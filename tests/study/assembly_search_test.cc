@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <random>
 
-#include "corank/result/assembled.h"
 #include "corank/result/result_file.h"
+#include "corank/result/sentences.h"
 #include "corank/result/summary.h"
 #include "corank/result/verification.h"
 #include "corank/study/answer.h"

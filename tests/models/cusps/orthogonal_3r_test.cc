@@ -1,6 +1,6 @@
 // Cusps and nodes of orthogonal 3R arms against the traced image of their inverse locus, in doubles and without any of
 // corank's equations.
-#include "corank/result/locus_words.h"
+#include "corank/result/sentences.h"
 #include "corank/result/verification.h"
 #include "corank/tests/models/cusps/asking.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "corank/check/checker.h"
-#include "corank/result/locus_words.h"
+#include "corank/result/sentences.h"
 #include "corank/result/summary.h"
 #include "corank/result/verification.h"
 #include "corank/tests/models/cusps/asking.h"

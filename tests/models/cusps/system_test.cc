@@ -1,7 +1,7 @@
 // The systems of cusps and nodes: how many equations they have, what they are called, and what is refused.
 #include <gmock/gmock.h>
 
-#include "corank/result/locus_words.h"
+#include "corank/result/sentences.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/regular_locus.h"

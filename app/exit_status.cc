@@ -1,9 +1,9 @@
-#include "corank/app/output.h"
+#include "corank/app/exit_status.h"
 
 #include <fmt/format.h>
 
-#include "corank/result/assembled.h"
-#include "corank/result/printable.h"
+#include "corank/result/sentences.h"
+#include "corank/result/words.h"
 
 namespace corank::app {
 

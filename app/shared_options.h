@@ -1,0 +1,75 @@
+// What the command lines of several subcommands have: values and ranges by name, what ends a search or an analysis, --json.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "corank/analyze/ball.h"
+#include "corank/solve/options.h"
+
+namespace corank::app {
+
+/// "a=1,b=[2,3]" in its parts, at commas outside of parentheses and brackets.
+std::vector<std::string> parts_of(const std::vector<std::string>& texts);
+/// Throws UsageError, with what was expected.
+std::pair<std::string, std::string> split_at_equals(const std::string& text, const std::string& option,
+                                                    const std::string& expected);
+/// An expression of the model language, in which 15deg is an angle of 15 degrees.
+symbolic::Expression expression(const std::string& text, const std::string& option);
+/// NAME=VALUE, comma by comma.
+std::vector<analyze::NamedValue> named_values(const std::vector<std::string>& texts, const std::string& option);
+
+/// What ends a search; solve::Options::validate() says which numbers make sense.
+struct SearchLimits {
+  int threads = 0;
+  std::uint64_t max_boxes = 0, max_found = 0;
+  double time_limit = 0;
+  std::optional<std::uint64_t> memory_limit{};  ///< bytes; nothing: three quarters of what the machine grants
+
+  /// --threads, --max-boxes, --max-found, --time-limit, --memory-limit. `search`: "the search" or "each search".
+  void add_options(CLI::App& sub, const std::string& search);
+  /// Puts them into the options, which are not validated.
+  void apply(solve::Options& options) const;
+};
+
+/// --threads and --time-limit, of an analysis that says what is proven by then.
+void add_analysis_limits(CLI::App& sub, int& threads, double& seconds);
+/// --threads alone.
+void add_threads(CLI::App& sub, int& threads);
+/// --time-limit alone, of a command that gives the whole of its output or none.
+void add_time_limit(CLI::App& sub, double& seconds, const std::string& end = "End after SECONDS, without output");
+
+/// Throws UsageError where one of the options is given, which another one or the input leaves without effect: "--grid:
+/// without effect; expected REASON".
+void refuse_without_effect(const CLI::App& sub, const std::vector<std::string>& options, const std::string& expected);
+
+/// --json [PATH]: the result as JSON, to PATH or to standard output, in every subcommand that gives a result.
+class JsonOption {
+ public:
+  /// `what`: of what the JSON is, `table`: what stands on standard output without it.
+  void add(CLI::App& sub, const std::string& what = "the result", const std::string& table = "the table");
+
+  bool given() const { return option_ && option_->count() > 0; }
+  /// Standard output holds the JSON, and nothing else.
+  bool takes_standard_output() const { return given() && path().empty(); }
+  /// Of the file, "" for standard output. Requires that it is given.
+  std::string path() const { return path_.value_or(""); }
+
+  /// `--json FILE` without another file: CLI11 took it for the path. `name`: "FILE". Throws UsageError where there is no
+  /// input either way.
+  void give_back(std::string& input, const std::string& name = "FILE");
+  /// Throws as check_output() does.
+  void check() const;
+  /// Writes or prints the text, where it is asked for. True: the table is to be printed, too.
+  bool say(const std::function<std::string()>& text) const;
+
+ private:
+  const CLI::Option* option_ = nullptr;
+  std::optional<std::string> path_;
+};
+
+}  // namespace corank::app
