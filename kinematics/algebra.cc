@@ -258,20 +258,10 @@ ex Algebra::clean(const ex& e) const {
 ex Algebra::collected(const ex& e) const {
   const ex sum = e.expand();
   std::map<ex, ex, GiNaC::ex_is_less> coefficients;  // of each product of coordinates
-  const auto add = [&](const ex& term) {
+  for (const ex& term : symbolic::parts_of<GiNaC::add>(sum)) {
     ex coefficient = 1, product = 1;
-    const auto factor = [&](const ex& f) { (is_constant(f) ? coefficient : product) *= f; };
-    if (is_a<GiNaC::mul>(term)) {
-      for (const ex& f : term) factor(f);
-    } else {
-      factor(term);
-    }
+    for (const ex& f : symbolic::parts_of<GiNaC::mul>(term)) (is_constant(f) ? coefficient : product) *= f;
     coefficients[product] += coefficient;
-  };
-  if (is_a<GiNaC::add>(sum)) {
-    for (const ex& term : sum) add(term);
-  } else {
-    add(sum);
   }
   GiNaC::exvector kept;  // added at once: one by one takes quadratic time
   for (const auto& [product, coefficient] : coefficients)

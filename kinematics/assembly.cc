@@ -16,28 +16,12 @@ namespace {
 // Where a body is depends on all that carry it: what is written of a chain grows with the square of its length.
 constexpr std::size_t kMostMovingBodies = 500;
 
-int freedom(JointKind kind) {
-  switch (kind) {
-    case JointKind::revolute:
-    case JointKind::prismatic:
-    case JointKind::parallelogram: return 1;
-    case JointKind::cylindrical:
-    case JointKind::universal: return 2;
-    case JointKind::spherical:
-    case JointKind::planar: return 3;
-    case JointKind::distance:
-    case JointKind::universal_rod: return 5;
-    case JointKind::distance_variable: return 6;
-    case JointKind::fixed: return 0;
-  }
-  return 0;
-}
-
 int count_mobility(const Bodies& bodies, Space space) {
   const int full = space == Space::spatial ? 6 : 3;
   int mobility = full * (static_cast<int>(bodies.size()) - 1);
   for (const BodyJoint& j : bodies.joints) {
-    mobility -= is_rod(j.kind) ? 6 - freedom(j.kind) : std::max(0, full - freedom(j.kind));
+    const int freedom = traits(j.kind).freedom;
+    mobility -= is_rod(j.kind) ? 6 - freedom : std::max(0, full - freedom);
   }
   return mobility;
 }

@@ -197,9 +197,7 @@ class Builder {
           const BodyJoint& j = out_.joints[k];
           const BodyEnd &near = j.ends[side], &far = j.ends[1 - side];
           const bool about_axis = j.kind == JointKind::revolute;
-          if (near.body != body || places.contains(far.body) ||
-              !(about_axis || j.kind == JointKind::universal || j.kind == JointKind::spherical))
-            continue;
+          if (near.body != body || places.contains(far.body) || !turns_about_point(j.kind)) continue;
           const Vec away = algebra_.clean(places.at(body) - near.point);
           const ex along = about_axis ? algebra_.clean(dot(away, near.axis)) : ex(0);
           if (!algebra_.is_zero(algebra_.clean(away - along * near.axis))) continue;
@@ -252,6 +250,12 @@ class Builder {
 std::optional<Vec> carried_over(const Vec& known, const BodyEnd& near, const BodyEnd& far, const Algebra& algebra) {
   if (!algebra.are_parallel(known, near.axis)) return std::nullopt;
   return ex(algebra.sign(algebra.clean(dot(known, near.axis)))) * far.axis;
+}
+
+bool Bodies::has_output(const Robot& robot, std::size_t body) const {
+  return std::ranges::any_of(robot.outputs, [&](const Output& o) {
+    return o.kind != Output::Kind::joint && (of_link[o.link] == body || of_link[o.relative_to] == body);
+  });
 }
 
 Mat basis_of(const Vec& n, const Algebra& algebra) {

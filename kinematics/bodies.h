@@ -2,6 +2,7 @@
 // that only slide or circle on each other keep their relative orientation: together they are a *group*, with one rotation.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <optional>
@@ -50,6 +51,10 @@ struct Bodies {
   std::vector<BodyJoint> idle_rods;
 
   std::size_t size() const { return group.size(); }
+  /// The first link of a body.
+  std::size_t link_of(std::size_t body) const { return std::ranges::find(of_link, body) - of_link.begin(); }
+  /// Is a body's place or orientation asked for, or another one's relative to it?
+  bool has_output(const Robot& robot, std::size_t body) const;
 };
 
 /// From body to body: step(j, near, far) for each of these joints (in Bodies::joints) on each body that is reached, near

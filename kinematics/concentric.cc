@@ -51,10 +51,8 @@ class Block {
 
   /// The point about which all turns, in each body's frame; false where there is none.
   bool find_centres() {
-    const bool all_turn = std::all_of(joints_.begin(), joints_.end(), [&](std::size_t j) {
-      const JointKind kind = bodies_.joints[j].kind;
-      return kind == JointKind::revolute || kind == JointKind::universal || kind == JointKind::spherical;
-    });
+    const bool all_turn =
+        std::ranges::all_of(joints_, [&](std::size_t j) { return turns_about_point(bodies_.joints[j].kind); });
     return all_turn && start() && spread();
   }
   const Vec& centre(std::size_t body) const { return *centre_[body]; }

@@ -58,29 +58,34 @@ void Draft::slice(const ex& angle, const Range& range, const std::string& what, 
     meets_limit = c->limit && (above == 0 || below == 0);
   }
   if (meets_limit && algebra_.sign(upper - lower) > 0) {  // the limit is one still
-    const ex middle = (lower + upper) / 2, half = (upper - lower) / 2;
-    if (algebra_.sign(half - GiNaC::Pi) < 0)
-      at_least_zero(GiNaC::cos(angle) * GiNaC::cos(middle) + GiNaC::sin(angle) * GiNaC::sin(middle) - GiNaC::cos(half),
-                    "range", where);
+    if (const std::optional<Arc> own = arc(range, where))
+      at_least_zero(
+          GiNaC::cos(angle) * GiNaC::cos(own->middle) + GiNaC::sin(angle) * GiNaC::sin(own->middle) - GiNaC::cos(own->half),
+          "range", where);
     return;
   }
   c->range = range;
   c->limit.reset();
 }
 
+std::optional<Draft::Arc> Draft::arc(const Range& range, const SourceLocation& where) const {
+  const ex lower = algebra_.constant(range.lower, where), upper = algebra_.constant(range.upper, where);
+  const ex middle = (lower + upper) / 2, half = (upper - lower) / 2;
+  return algebra_.sign(half - GiNaC::Pi) < 0 ? std::optional(Arc{middle, half}) : std::nullopt;
+}
+
 Draft::JointCoordinate Draft::joint_angle(std::size_t joint, const std::string& name) {
-  if (is_coupled(joint)) return common(joint, true);
+  if (robot_.is_coupled(joint)) return common(joint, true);
   const Joint& of = robot_.joints[joint];
-  const ex own = angle(name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
+  const ex own = angle(name, of.range(), of.where);
   limit_last();
   return {own};
 }
 
 Draft::JointCoordinate Draft::joint_way(std::size_t joint, const std::string& name) {
-  if (is_coupled(joint)) return common(joint, false);
+  if (robot_.is_coupled(joint)) return common(joint, false);
   const Joint& of = robot_.joints[joint];
-  const std::size_t of_way = of.kind == JointKind::cylindrical ? 1 : 0;
-  const ex own = length(name, of.ranges.size() > of_way ? of.ranges[of_way] : std::nullopt, of.where);
+  const ex own = length(name, of.range(of.kind == JointKind::cylindrical ? 1 : 0), of.where);
   limit_last();
   return {own};
 }
@@ -104,10 +109,11 @@ std::optional<Range> Draft::common_range(const Couplings::Train& train) const {
   std::optional<ex> lower, upper;
   for (const std::size_t j : train.joints) {
     const Joint& joint = robot_.joints[j];
-    if (joint.ranges.empty() || !joint.ranges[0]) continue;
+    const std::optional<Range> range = joint.range();
+    if (!range) continue;
     const Couplings::Place& place = *couplings_.of(j);
-    ex low = (algebra_.constant(joint.ranges[0]->lower, joint.where) - place.offset) / place.multiple;
-    ex high = (algebra_.constant(joint.ranges[0]->upper, joint.where) - place.offset) / place.multiple;
+    ex low = (algebra_.constant(range->lower, joint.where) - place.offset) / place.multiple;
+    ex high = (algebra_.constant(range->upper, joint.where) - place.offset) / place.multiple;
     if (algebra_.sign(place.multiple) < 0) std::swap(low, high);
     if (!lower || algebra_.sign(low - *lower) > 0) lower = algebra_.clean(low);
     if (!upper || algebra_.sign(*upper - high) > 0) upper = algebra_.clean(high);
@@ -123,21 +129,22 @@ std::optional<Range> Draft::common_range(const Couplings::Train& train) const {
 }
 
 ex Draft::symbol_of(std::size_t joint, const ex& own) const {
-  return is_coupled(joint) ? *common_[couplings_.of(joint)->train] : own;
+  return robot_.is_coupled(joint) ? *common_[couplings_.of(joint)->train] : own;
 }
 
 ex Draft::rate_of_symbol(std::size_t joint, const ex& own) const {
-  if (!is_coupled(joint)) return own;
+  if (!robot_.is_coupled(joint)) return own;
   const std::size_t train = couplings_.of(joint)->train;
   return *rate_[train] / couplings_.trains()[train].parts;
 }
 
 std::vector<std::size_t> Draft::moving_with(std::size_t joint) const {
-  return is_coupled(joint) ? couplings_.trains()[couplings_.of(joint)->train].joints : std::vector<std::size_t>{joint};
+  return robot_.is_coupled(joint) ? couplings_.trains()[couplings_.of(joint)->train].joints
+                                  : std::vector<std::size_t>{joint};
 }
 
 ex Draft::joint_rate(std::size_t joint, const std::string& prefix, CoordinateKind kind, symbolic::Role role) {
-  if (!is_coupled(joint)) return rate(prefix + robot_.joints[joint].name, kind, role, robot_.joints[joint].where);
+  if (!robot_.is_coupled(joint)) return rate(prefix + robot_.joints[joint].name, kind, role, robot_.joints[joint].where);
   const Couplings::Place& place = *couplings_.of(joint);
   const Couplings::Train& train = couplings_.trains()[place.train];
   std::optional<ex>& shared = rate_[place.train];
@@ -253,6 +260,24 @@ std::array<bool, 3> Draft::moving(const Output& output, const Vec& value) const 
                      std::string("the component ") + "xyz"[i] + " of the output '" + output.name +
                          "' cannot move: it is always " + fmt::format("{:.9g}", algebra_.value(clean)),
                      "components that the robot can move");
+  }
+  return moves;
+}
+
+void Draft::output_of_joint(const Output& output, const std::optional<ex>& coordinate) {
+  if (!coordinate)
+    throw ModelError(output.where, "the joint '" + robot_.joints[output.joint].name + "' has no coordinate",
+                     "a revolute or prismatic joint, or a rod of variable length");
+  outputs_.push_back(symbol_of(output.joint, *coordinate));
+}
+
+std::array<bool, 3> Draft::output_components(const Output& output, const Vec& value) {
+  const std::array<bool, 3> moves = moving(output, value);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!moves[i]) continue;
+    const ex coordinate = length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
+    equation(coordinate - value[i], "output", output.where);
+    outputs_.push_back(coordinate);
   }
   return moves;
 }

@@ -43,6 +43,11 @@ class Draft {
   ex length(const std::string& name, const std::optional<Range>& range, const SourceLocation& where, bool auxiliary = false);
   /// An angle that is a coordinate is looked at in this range only. Throws ModelError where its own range has other values.
   void slice(const ex& angle, const Range& range, const std::string& what, const SourceLocation& where);
+  /// The middle and the half of a range of angles; nothing where that is the whole circle.
+  struct Arc {
+    ex middle, half;
+  };
+  std::optional<Arc> arc(const Range& range, const SourceLocation& where) const;
   /// The range of the coordinate declared last is a joint's: the mechanism's limit, where it is one.
   void limit_last();
   /// A joint's angle or way, in terms of its coordinate.
@@ -57,7 +62,6 @@ class Draft {
   /// share.
   JointCoordinate joint_angle(std::size_t joint, const std::string& name);
   JointCoordinate joint_way(std::size_t joint, const std::string& name);
-  bool is_coupled(std::size_t joint) const { return couplings_.of(joint).has_value(); }
   /// The symbol that stands for the joint's motion among inputs and outputs; `own` where it follows none.
   ex symbol_of(std::size_t joint, const ex& own) const;
   /// Of that symbol, where the joint's rate is declared.
@@ -86,6 +90,10 @@ class Draft {
   /// output names a component, by `only` or by a range, that is.
   std::array<bool, 3> moving(const Output& output, const Vec& value) const;
   void at_least_zero(const ex& e, const std::string& note, const SourceLocation& where);
+  /// Of an angle that is the difference of two: it is 0.
+  void no_turn(const Turn& difference, const SourceLocation& where) {
+    if (equation(difference.sine(), "angle", where)) at_least_zero(difference.cosine(), "angle", where);
+  }
 
   ex rate(const std::string& name, symbolic::CoordinateKind kind, symbolic::Role role, const SourceLocation& where);
   /// Left out where it is 0 or known to follow.
@@ -114,6 +122,10 @@ class Draft {
 
   void input(const ex& coordinate) { inputs_.push_back(coordinate); }
   void output(const ex& coordinate) { outputs_.push_back(coordinate); }
+  /// An output that is a joint's coordinate. Throws ModelError where it has none.
+  void output_of_joint(const Output& output, const std::optional<ex>& coordinate);
+  /// Makes coordinates of the components that move; returns which.
+  std::array<bool, 3> output_components(const Output& output, const Vec& value);
 
   /// The mechanism, with the robot's constants, and what its solutions mean.
   Assembly assembly() const;
@@ -188,6 +200,43 @@ class Draft {
   std::vector<JointValue> values_;
   std::vector<DraftPoint> points_;
   std::vector<symbolic::DrawingPart> parts_;
+};
+
+/// Whoever writes equations of a robot's bodies into a draft.
+class Drafter {
+ public:
+  Drafter(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft)
+      : robot_(robot), bodies_(bodies), algebra_(algebra), draft_(draft) {}
+
+ protected:
+  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
+  const Joint& joint(std::size_t in_bodies) const { return joint(bodies_.joints[in_bodies]); }
+  std::size_t number(const BodyJoint& j) const { return &j - bodies_.joints.data(); }
+  std::size_t group(std::size_t body) const { return bodies_.group[body]; }
+  const std::string& name_of(std::size_t body) const { return robot_.links[bodies_.link_of(body)].name; }
+
+  /// Poses of links and values of joints, for whoever wants to know them of a solution. In the world: image(body, vector) and
+  /// place(body, point); angle(joint): cosine and sine, where a revolute joint has no coordinate.
+  void report(const std::vector<std::optional<ex>>& coordinates, auto&& image, auto&& place, auto&& angle) {
+    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
+      const Placement& at = bodies_.placement[l];
+      Mat axes = transpose(at.rotation);
+      for (Vec& column : axes) column = image(bodies_.of_link[l], column);
+      draft_.pose({place(bodies_.of_link[l], at.translation), transpose(axes)});
+    }
+    for (const BodyJoint& j : bodies_.joints)
+      if (coordinates[j.index]) {
+        draft_.joint_value(joint(j).name, *coordinates[j.index]);
+      } else if (j.kind == JointKind::revolute) {
+        const auto [cosine, sine] = angle(j);
+        draft_.joint_value(joint(j).name, cosine, sine);
+      }
+  }
+
+  const Robot& robot_;
+  const Bodies& bodies_;
+  Algebra& algebra_;
+  Draft& draft_;
 };
 
 }  // namespace corank::kinematics

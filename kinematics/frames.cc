@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/symbolic/ginac_bridge.h"
+
 namespace corank::kinematics {
 namespace {
 
@@ -16,24 +18,15 @@ bool shares_axis(JointKind kind) {
 
 }  // namespace
 
-Frames::Frames(const Robot& robot, const Bodies& bodies, PlaneLoops& loops, Algebra& algebra, Draft& draft)
-    : robot_(robot),
-      bodies_(bodies),
+Frames::Frames(const Drafter& drafter, PlaneLoops& loops)
+    : Drafter(drafter),
       loops_(loops),
-      algebra_(algebra),
-      draft_(draft),
-      frames_(bodies.groups),
-      axes_(bodies.joints.size()),
-      aligned_(bodies.joints.size(), false),
-      angles_(robot.joints.size()) {
+      frames_(bodies_.groups),
+      axes_(bodies_.joints.size()),
+      aligned_(bodies_.joints.size(), false),
+      angles_(robot_.joints.size()) {
   const Vec x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   frames_[0] = Frame{{x, y}, {x, y}, z, false};
-}
-
-bool Frames::is_asked_for(std::size_t index) const {
-  return robot_.joints[index].actuated || draft_.is_coupled(index) ||
-         std::any_of(robot_.outputs.begin(), robot_.outputs.end(),
-                     [&](const Output& o) { return o.kind == Output::Kind::joint && o.joint == index; });
 }
 
 std::string Frames::name_of_group(std::size_t group) const {
@@ -44,34 +37,20 @@ std::string Frames::name_of_group(std::size_t group) const {
 
 // Linear, with two terms at most in each component.
 bool Frames::is_simple(const Vec& v) const {
-  for (const ex& component : v) {
-    const ex e = component.expand();
-    const auto degree = [&](const ex& term) {
-      int sum = 0;
-      const auto count = [&](const ex& f) {
-        if (algebra_.is_constant(f)) return;
-        sum += GiNaC::is_a<GiNaC::power>(f) ? 2 : 1;
-      };
-      if (GiNaC::is_a<GiNaC::mul>(term)) {
-        for (const ex& f : term) count(f);
-      } else {
-        count(term);
-      }
-      return sum;
-    };
-    if (GiNaC::is_a<GiNaC::add>(e)) {
-      if (e.nops() > 2) return false;
-      for (const ex& term : e)
-        if (degree(term) > 1) return false;
-    } else if (degree(e) > 1) {
-      return false;
-    }
-  }
-  return true;
+  const auto is_linear = [&](const ex& term) {
+    int degree = 0;
+    for (const ex& f : symbolic::parts_of<GiNaC::mul>(term))
+      if (!algebra_.is_constant(f)) degree += GiNaC::is_a<GiNaC::power>(f) ? 2 : 1;
+    return degree <= 1;
+  };
+  return std::ranges::all_of(v, [&](const ex& component) {
+    const GiNaC::exvector terms = symbolic::parts_of<GiNaC::add>(component.expand());
+    return terms.size() <= 2 && std::ranges::all_of(terms, is_linear);
+  });
 }
 
 Vec Frames::simplified(const Vec& v, const std::string& name, const SourceLocation& where) {
-  const Vec clean{algebra_.clean(v[0]), algebra_.clean(v[1]), algebra_.clean(v[2])};
+  const Vec clean = algebra_.clean(v);
   if (is_simple(clean)) return clean;
   const Vec w = draft_.vector(name, where);
   for (std::size_t i = 0; i < 3; ++i) draft_.equation(w[i] - clean[i], name, where);
@@ -107,7 +86,7 @@ Vec Frames::image(std::size_t group, const Vec& v) {
   Vec sum{0, 0, 0};
   for (std::size_t i = 0; i < 3; ++i)
     if (!algebra_.is_zero(c[i])) sum = sum + c[i] * direction(group, i);
-  return {algebra_.clean(sum[0]), algebra_.clean(sum[1]), algebra_.clean(sum[2])};
+  return algebra_.clean(sum);
 }
 
 std::array<Vec, 2> Frames::across(std::size_t group, const Vec& v) {
@@ -121,7 +100,7 @@ Vec Frames::axis(std::size_t j, std::size_t end) {
   if (!axes_[j]) {
     const BodyEnd& e = bodies_.joints[j].ends[end];
     const Joint& of = joint(bodies_.joints[j]);
-    axes_[j] = simplified(image(bodies_.group[e.body], e.axis), "axis_" + of.name, of.where);
+    axes_[j] = simplified(image(group(e.body), e.axis), "axis_" + of.name, of.where);
   }
   return *axes_[j];
 }
@@ -209,14 +188,13 @@ Frames::CosineSine Frames::own_angle(std::size_t index) {
 void Frames::turn_by_angle(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
-  const std::size_t group = bodies_.group[parent.body];
+  const std::size_t from = group(parent.body), turned_group = group(child.body);
   const Joint& of = joint(j);
   const CosineSine theta = own_angle(j.index);
   const Vec along = axis(edge.joint, edge.from);
   const int sign = edge.from == 0 ? 1 : -1;
   const Vec turned =
-      theta.cosine * image(group, parent.zero) + (sign * theta.sine) * image(group, cross(parent.axis, parent.zero));
-  const std::size_t turned_group = bodies_.group[child.body];
+      theta.cosine * image(from, parent.zero) + (sign * theta.sine) * image(from, cross(parent.axis, parent.zero));
   frames_[turned_group] =
       Frame{{child.axis, child.zero}, {along, simplified(turned, "u_" + name_of_group(turned_group), of.where)}, {}, false};
   aligned_[edge.joint] = true;
@@ -227,82 +205,70 @@ bool Frames::turn_in_plane(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   if (part == nullptr || is_rod(j.kind)) return false;
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
-  const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
+  const std::size_t from = group(parent.body), turned = group(child.body);
   if (!part->root) {
     part->root = parent.body;
-    part->bodies.insert(parent.body);
-    part->turns[group] = Turn{};
-    part->turning[group] = {};
+    part->reached.insert(parent.body);
+    part->turns[from] = {};
+    part->turning[from] = {};
   }
-  if (!part->bodies.contains(parent.body)) return false;
-  if (group == turned) {
-    part->bodies.insert(child.body);
-    return true;
-  }
-  if (part->turns.contains(turned)) {
-    part->bodies.insert(child.body);
+  if (!part->reached.contains(parent.body)) return false;
+  if (from == turned || part->turns.contains(turned)) {
+    part->reached.insert(child.body);
+    if (from == turned) return true;
     part->following.insert(edge.joint);
     close_in_plane(j, *part);
     return true;
   }
   if (has_frame(turned)) return false;
   const Joint& of = joint(j);
-  const int sign = part->sense(bodies_, j, algebra_) * (edge.from == 0 ? 1 : -1);
-  const Turn& base = part->turns.at(group);
-  if (is_asked_for(j.index) || (base.angle.is_zero() && !of.ranges.empty() && of.ranges[0])) {
+  const int sign = part->sense(j) * (edge.from == 0 ? 1 : -1);
+  if (robot_.is_asked_for(j.index) || (part->turns.at(from).angle.is_zero() && of.range())) {
     const Draft::JointCoordinate theta = draft_.joint_angle(j.index, of.name);
     angles_[j.index] = theta.value();
-    const Turn turn = base * Turn{part->in_plane(group, parent.zero, algebra_)} * theta.turn(sign) *
-                      Turn{conjugate(part->in_plane(turned, child.zero, algebra_))};
-    part->turns[turned] = {{algebra_.clean(turn.k.re), algebra_.clean(turn.k.im)}, turn.angle};
+    part->turns[turned] = part->carried(parent, child, theta.turn(sign));
   } else {
     part->angles[turned] = draft_.angle("phi_" + name_of_group(turned), {}, of.where);
     part->turns[turned] = {{1, 0}, part->angles.at(turned)};
   }
-  part->turning[turned] = part->turning.at(group);
+  part->turning[turned] = part->turning.at(from);
   part->turning[turned].push_back({edge.joint, sign});
-  part->bodies.insert(child.body);
-  const std::size_t carrier = bodies_.group[*part->root];
+  part->reached.insert(child.body);
+  const std::size_t carrier = group(*part->root);
   const Mat &there = part->basis.at(carrier), &own = part->basis.at(turned);
   const Turn& turn = part->turns.at(turned);
   const Vec u = turn.cosine() * image(carrier, there[0]) + turn.sine() * image(carrier, there[1]);
   if (!part->normal) part->normal = simplified(image(carrier, there[2]), "axis_" + of.name, of.where);
   frames_[turned] = Frame{{own[2], own[0]}, {*part->normal, u}, {}, true};
-  if (!axes_[edge.joint]) axes_[edge.joint] = ex(part->sense(bodies_, j, algebra_)) * *part->normal;
+  if (!axes_[edge.joint]) axes_[edge.joint] = ex(part->sense(j)) * *part->normal;
   aligned_[edge.joint] = true;
   return true;
 }
 
 /// Directions agree wherever a loop in its plane is turned to; its own angle is that of its two bodies.
 void Frames::close_in_plane(const BodyJoint& j, const PlanePart& part) {
-  const Joint& of = joint(j);
-  if (j.kind != JointKind::revolute || !is_asked_for(j.index)) return;
-  const auto zero = [&](const BodyEnd& e) {
-    const std::size_t g = bodies_.group[e.body];
-    return part.turns.at(g) * Turn{part.in_plane(g, e.zero, algebra_)};
-  };
-  const Draft::JointCoordinate theta = draft_.joint_angle(j.index, of.name);
+  if (j.kind != JointKind::revolute || !robot_.is_asked_for(j.index)) return;
+  const Draft::JointCoordinate theta = draft_.joint_angle(j.index, joint(j).name);
   angles_[j.index] = theta.value();
-  const Turn difference = zero(j.ends[1]) * inverse(zero(j.ends[0])) * theta.turn(-part.sense(bodies_, j, algebra_));
-  if (draft_.equation(difference.sine(), "angle", of.where)) draft_.at_least_zero(difference.cosine(), "angle", of.where);
+  draft_.no_turn(part.turned(j) * theta.turn(-part.sense(j)), joint(j).where);
 }
 
 void Frames::turn_by_universal(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
-  const std::size_t group = bodies_.group[parent.body];
+  const std::size_t from = group(parent.body);
   const Joint& of = joint(j);
-  const Vec first = image(group, parent.axis);
+  const Vec first = image(from, parent.axis);
   Vec second;
   if (algebra_.is_constant(first)) {
     const ex theta = draft_.angle(of.name, {}, of.where);
-    second = simplified(cos(theta) * image(group, parent.zero) + sin(theta) * image(group, cross(parent.axis, parent.zero)),
+    second = simplified(cos(theta) * image(from, parent.zero) + sin(theta) * image(from, cross(parent.axis, parent.zero)),
                         "axis_" + of.name, of.where);
   } else {
     second = draft_.unit_vector("axis_" + of.name, of.where);
     draft_.equation(dot(first, second), "universal joint", of.where);
   }
-  complete(bodies_.group[child.body], child.axis, second, of.where);
+  complete(group(child.body), child.axis, second, of.where);
 }
 
 void Frames::keep(std::size_t group, const Mat& rotation, const std::string& name, const SourceLocation& where) {
@@ -323,7 +289,7 @@ void Frames::keep(std::size_t group, const Mat& rotation, const std::string& nam
 void Frames::orient(const TreeEdge& edge) {
   const BodyJoint& j = bodies_.joints[edge.joint];
   const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
-  const std::size_t group = bodies_.group[parent.body], turned = bodies_.group[child.body];
+  const std::size_t turned = group(child.body);
   if (turn_in_plane(edge)) return;
   if (has_frame(turned)) {
     // Reached before, by another body of its group, or kept turned as an output says: the joint says how the two are
@@ -333,10 +299,7 @@ void Frames::orient(const TreeEdge& edge) {
   }
   switch (j.kind) {
     case JointKind::revolute:
-      if (is_asked_for(j.index) || group == 0) {
-        turn_by_angle(edge);
-        return;
-      }
+      if (robot_.is_asked_for(j.index) || group(parent.body) == 0) return turn_by_angle(edge);
       [[fallthrough]];
     case JointKind::cylindrical:
     case JointKind::planar: {
@@ -351,14 +314,10 @@ void Frames::orient(const TreeEdge& edge) {
 }
 
 void Frames::close(const BodyJoint& j) {
-  const std::size_t index = static_cast<std::size_t>(&j - bodies_.joints.data());
-  const std::size_t g0 = bodies_.group[j.ends[0].body], g1 = bodies_.group[j.ends[1].body];
+  const std::size_t g0 = group(j.ends[0].body), g1 = group(j.ends[1].body);
   const Joint& of = joint(j);
   const std::string what = "the joint '" + of.name + "'";
-  if (const PlanePart* part = loops_.closing(bodies_, index)) {
-    close_in_plane(j, *part);
-    return;
-  }
+  if (const PlanePart* part = loops_.closing(number(j))) return close_in_plane(j, *part);
   if (j.kind == JointKind::universal) {
     draft_.equation(dot(image(g0, j.ends[0].axis), image(g1, j.ends[1].axis)), "universal joint", of.where, what);
     return;
@@ -366,7 +325,7 @@ void Frames::close(const BodyJoint& j) {
   if (!shares_axis(j.kind)) return;
   if (g0 == g1) {
     for (std::size_t i = 0; i < 3; ++i) draft_.equation(j.ends[0].axis[i] - j.ends[1].axis[i], "axis", of.where, what);
-  } else if (!aligned_[index]) {
+  } else if (!aligned_[number(j)]) {
     // Two unit vectors are equal where two components in an orthonormal frame are, and the third, which is not 0, has the
     // same sign.
     const Vec a = image(g0, j.ends[0].axis);
@@ -388,7 +347,7 @@ void Frames::close(const BodyJoint& j) {
       }
     }
   }
-  if (j.kind != JointKind::revolute || !is_asked_for(j.index)) return;
+  if (j.kind != JointKind::revolute || !robot_.is_asked_for(j.index)) return;
   // tan θ by the zeros: x sin θ − y cos θ = 0 and x cos θ + y sin θ ≥ 0, where (x, y) = (cos, sin) at solutions.
   const CosineSine theta = own_angle(j.index);
   const Vec zero = image(g1, j.ends[1].zero);
@@ -399,33 +358,31 @@ void Frames::close(const BodyJoint& j) {
 
 void Frames::limit(const BodyJoint& j) {
   const Joint& of = joint(j);
-  const std::size_t g0 = bodies_.group[j.ends[0].body], g1 = bodies_.group[j.ends[1].body];
+  const std::size_t g0 = group(j.ends[0].body), g1 = group(j.ends[1].body);
   const BodyEnd &e0 = j.ends[0], &e1 = j.ends[1];
-  const auto range = [&](std::size_t i) { return of.ranges.size() > i ? of.ranges[i] : std::nullopt; };
   // cos(θ − middle) ≥ cos(half), where θ turns `zero` of group g about `axis` to the image of `turned`, sense −1: the
   // other way.
   const auto keep = [&](const Range& limits, std::size_t g, const Vec& axis, const Vec& zero, int sense, const Vec& turned) {
-    const ex lower = algebra_.constant(limits.lower, of.where), upper = algebra_.constant(limits.upper, of.where);
-    const ex middle = (lower + upper) / 2, half = (upper - lower) / 2;
-    if (algebra_.sign(half - GiNaC::Pi) >= 0) return;
-    const Vec centre = image(g, cos(middle) * zero + (sense * sin(middle)) * cross(axis, zero));
-    draft_.at_least_zero(dot(centre, turned) - cos(half), "range", of.where);
+    const auto arc = draft_.arc(limits, of.where);
+    if (!arc) return;
+    const Vec centre = image(g, cos(arc->middle) * zero + (sense * sin(arc->middle)) * cross(axis, zero));
+    draft_.at_least_zero(dot(centre, turned) - cos(arc->half), "range", of.where);
   };
   switch (j.kind) {
     case JointKind::spherical: {
-      if (!range(0) || algebra_.is_zero(e0.axis)) return;
-      const ex upper = algebra_.constant(range(0)->upper, of.where);
+      if (!of.range(0) || algebra_.is_zero(e0.axis)) return;
+      const ex upper = algebra_.constant(of.range(0)->upper, of.where);
       if (algebra_.sign(upper - GiNaC::Pi) < 0)
         draft_.at_least_zero(dot(image(g0, e0.axis), image(g1, e1.axis)) - cos(upper), "cone", of.where);
       return;
     }
     case JointKind::revolute:
     case JointKind::cylindrical:
-      if (range(0) && !angles_[j.index]) keep(*range(0), g0, e0.axis, e0.zero, 1, image(g1, e1.zero));
+      if (of.range(0) && !angles_[j.index]) keep(*of.range(0), g0, e0.axis, e0.zero, 1, image(g1, e1.zero));
       return;
     case JointKind::universal:
-      if (range(0)) keep(*range(0), g0, e0.axis, e0.zero, 1, image(g1, e1.axis));
-      if (range(1)) keep(*range(1), g1, e1.axis, e1.zero, -1, image(g0, e0.axis));
+      if (of.range(0)) keep(*of.range(0), g0, e0.axis, e0.zero, 1, image(g1, e1.axis));
+      if (of.range(1)) keep(*of.range(1), g1, e1.axis, e1.zero, -1, image(g0, e0.axis));
       return;
     default: return;
   }

@@ -1,20 +1,21 @@
-// The rotations of a spatial robot's groups of bodies, as images of directions in the world.
+// The rotations of a spatial robot's groups of bodies, as images of directions in the world, and where its bodies are.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "corank/kinematics/bodies.h"
 #include "corank/kinematics/draft.h"
 #include "corank/kinematics/plane_loops.h"
 #include "corank/kinematics/spanning_tree.h"
 
 namespace corank::kinematics {
 
-class Frames {
+class Frames : Drafter {
  public:
   /// The ground's frame is the world's; every other group gets its own by orient().
-  Frames(const Robot& robot, const Bodies& bodies, PlaneLoops& loops, Algebra& algebra, Draft& draft);
+  Frames(const Drafter& drafter, PlaneLoops& loops);
 
   /// In the world: a constant vector that is fixed in a group which has its frame.
   Vec image(std::size_t group, const Vec& v);
@@ -49,8 +50,6 @@ class Frames {
 
   /// The angle of a joint, where it is a coordinate or follows one.
   const std::optional<ex>& angle(std::size_t joint) const { return angles_[joint]; }
-  /// Must the joint's angle be a coordinate?
-  bool is_asked_for(std::size_t joint) const;
 
  private:
   struct Frame {
@@ -59,7 +58,6 @@ class Frames {
     bool is_product = false;   ///< world[1] is one, of which coordinates are made once it is needed
   };
 
-  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
   std::string name_of_group(std::size_t group) const;
   bool is_simple(const Vec& v) const;
   /// v itself where it is simple, else new coordinates that equal it.
@@ -82,16 +80,29 @@ class Frames {
   };
   std::vector<Candidate> candidates(std::size_t group) const;
 
-  const Robot& robot_;
-  const Bodies& bodies_;
   PlaneLoops& loops_;
-  Algebra& algebra_;
-  Draft& draft_;
   bool finished_ = false;
   std::vector<std::optional<Frame>> frames_;  // of each group
   std::vector<std::optional<Vec>> axes_;      // of each joint in bodies_, in the world
   std::vector<bool> aligned_;                 // of each joint in bodies_: both links have the same axis
   std::vector<std::optional<ex>> angles_;     // of each joint of the robot
+};
+
+/// Where the bodies are, in the world.
+struct Positions {
+  const Bodies& bodies;
+  const Algebra& algebra;
+  Frames& frames;
+  std::vector<std::optional<Vec>> origins{};     ///< of each body's frame
+  std::vector<std::optional<ex>> coordinates{};  ///< of each joint of the robot: its angle, way or length
+  std::map<std::string, Vec> output_points{};    ///< by the output's name
+  /// Of joints in Bodies::joints that close a loop along other directions than the world's: these three.
+  std::map<std::size_t, std::array<Vec, 3>> closing{};
+
+  /// A vector that is fixed in a body.
+  Vec image(std::size_t body, const Vec& v) const { return frames.image(bodies.group[body], v); }
+  /// A joint's point on a body that has its origin.
+  Vec place(const BodyEnd& end) const { return algebra.clean(*origins[end.body] + image(end.body, end.point)); }
 };
 
 }  // namespace corank::kinematics

@@ -64,30 +64,18 @@ std::size_t Identities::number(const ex& base) {
 Identities::Polynomial Identities::polynomial(const ex& e) {
   std::vector<std::pair<ex, std::vector<std::pair<ex, int>>>> terms;
   std::map<std::string, ex> fresh;
-  const auto term = [&](const ex& t) {
+  for (const ex& term : symbolic::parts_of<GiNaC::add>(e.expand())) {
     auto& [coefficient, powers] = terms.emplace_back(1, std::vector<std::pair<ex, int>>{});
-    const auto factor = [&, &coefficient = coefficient, &powers = powers](const ex& f) {
+    for (const ex& f : symbolic::parts_of<GiNaC::mul>(term)) {
       if (algebra_.is_constant(f)) {
         coefficient *= f;
-        return;
+        continue;
       }
       const bool is_power = GiNaC::is_a<GiNaC::power>(f) && f.op(1).info(GiNaC::info_flags::posint);
       const ex base = is_power ? f.op(0) : f;
       powers.emplace_back(base, is_power ? GiNaC::ex_to<GiNaC::numeric>(f.op(1)).to_int() : 1);
-      if (numbers_.contains(base)) return;
-      fresh.emplace(symbolic::text_of(base), base);
-    };
-    if (GiNaC::is_a<GiNaC::mul>(t)) {
-      for (const ex& f : t) factor(f);
-    } else {
-      factor(t);
+      if (!numbers_.contains(base)) fresh.emplace(symbolic::text_of(base), base);
     }
-  };
-  const ex sum = e.expand();
-  if (GiNaC::is_a<GiNaC::add>(sum)) {
-    for (const ex& t : sum) term(t);
-  } else {
-    term(sum);
   }
   for (const auto& [text, base] : fresh) number(base);
   Polynomial result;

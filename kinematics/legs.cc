@@ -38,32 +38,21 @@ class Legs {
     for (const std::size_t k : at_body_[body]) {
       const BodyJoint& j = bodies_.joints[k];
       const Joint& of = robot_.joints[j.index];
-      if (j.kind == JointKind::universal && !of.actuated && of.ranges.empty() && !is_asked_for(j.index)) return k;
+      if (j.kind == JointKind::universal && of.ranges.empty() && !robot_.is_asked_for(j.index)) return k;
     }
     return std::nullopt;
   }
 
-  bool is_asked_for(std::size_t joint) const {
-    return std::any_of(robot_.outputs.begin(), robot_.outputs.end(),
-                       [&](const Output& o) { return o.kind == Output::Kind::joint && o.joint == joint; });
-  }
-  bool is_coupled(std::size_t joint) const {
-    return std::any_of(robot_.couplings.begin(), robot_.couplings.end(),
-                       [&](const Coupling& c) { return c.driver == joint || c.follower == joint; });
-  }
   /// Nobody asks where the body is, or draws it.
   bool is_plain(std::size_t body) const {
     for (std::size_t l = 0; l < robot_.links.size(); ++l)
       if (bodies_.of_link[l] == body && !robot_.links[l].shapes.empty()) return false;
-    return std::none_of(robot_.outputs.begin(), robot_.outputs.end(), [&](const Output& o) {
-      return o.kind != Output::Kind::joint && (bodies_.of_link[o.link] == body || bodies_.of_link[o.relative_to] == body);
-    });
+    return !bodies_.has_output(robot_, body);
   }
 
   std::optional<Joint> leg(const BodyJoint& slide) const {
     const Joint& of = robot_.joints[slide.index];
-    if (slide.kind != JointKind::prismatic || is_coupled(slide.index) || of.ranges.empty() || !of.ranges[0])
-      return std::nullopt;
+    if (slide.kind != JointKind::prismatic || robot_.is_coupled(slide.index) || !of.range()) return std::nullopt;
     Joint leg = of;
     leg.kind = JointKind::universal_rod;
     std::array<Vec, 2> inner, apart;

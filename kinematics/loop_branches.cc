@@ -102,11 +102,11 @@ bool BranchFinder::are_opposite_or_equal(const PlanePoint& a, const PlanePoint& 
   return are_equal(a, b) || are_equal(plus({}, a, -1), b);
 }
 
-std::optional<LoopBranches> BranchFinder::of_loop(const PlanePoint& open, const Image& image) const {
+std::optional<LoopBranches> BranchFinder::of_loop(const PlanePoint& open, const Plane& plane) const {
   for (std::size_t number = 0; enabled_ && number < parallelograms_.size(); ++number) {
     Sides sides;
     for (std::size_t i = 0; i < 4; ++i)
-      if (const auto& side = parallelograms_[number].ways[i]; side.body) sides[i] = image(*side.body, side.way);
+      if (const auto& side = parallelograms_[number].ways[i]; side.body) sides[i] = plane.direction(*side.body, side.way);
     if (!std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.has_value(); })) continue;
     const PlanePoint there = plus(point(*sides[0]), point(*sides[1])), back = plus(point(*sides[2]), point(*sides[3]));
     if (are_opposite_or_equal(open, plus(there, back, -1))) return branches_of(sides, number);
@@ -114,13 +114,13 @@ std::optional<LoopBranches> BranchFinder::of_loop(const PlanePoint& open, const 
   return std::nullopt;
 }
 
-std::optional<LoopBranches> BranchFinder::of_rod(std::size_t rod, const PlanePoint& gap, const Image& image) const {
+std::optional<LoopBranches> BranchFinder::of_rod(std::size_t rod, const PlanePoint& gap, const Plane& plane) const {
   for (std::size_t number = 0; enabled_ && number < parallelograms_.size(); ++number) {
     const Parallelogram& one = parallelograms_[number];
     Sides sides;
     std::size_t third = 4;
     for (std::size_t i = 0; i < 4; ++i) {
-      if (one.ways[i].body) sides[i] = image(*one.ways[i].body, one.ways[i].way);
+      if (one.ways[i].body) sides[i] = plane.direction(*one.ways[i].body, one.ways[i].way);
       if (one.ways[i].rod == rod) third = i;
     }
     if (third == 4 || std::count_if(sides.begin(), sides.end(), [](const auto& s) { return s.has_value(); }) != 3) continue;

@@ -15,7 +15,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,12 +41,10 @@ class BranchFinder {
 
   const std::vector<Parallelogram>& parallelograms() const { return parallelograms_; }
 
-  /// A direction of a body in the plane; nothing where the body does not move in it.
-  using Image = std::function<std::optional<Turn>(std::size_t body, const Vec& way)>;
   /// Of the loop whose gap is `open`, where a parallelogram closes it.
-  std::optional<LoopBranches> of_loop(const PlanePoint& open, const Image& image) const;
+  std::optional<LoopBranches> of_loop(const PlanePoint& open, const Plane& plane) const;
   /// Of the loop that a rod closes, the joint in Bodies::joints; `gap`: the way along it.
-  std::optional<LoopBranches> of_rod(std::size_t rod, const PlanePoint& gap, const Image& image) const;
+  std::optional<LoopBranches> of_rod(std::size_t rod, const PlanePoint& gap, const Plane& plane) const;
 
   /// A, B, C, D in the plane; that of a rod is not known.
   using Sides = std::array<std::optional<Turn>, 4>;

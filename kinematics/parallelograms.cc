@@ -167,10 +167,7 @@ class ParallelAxes {
   std::string name(std::size_t side) const {
     const std::size_t carrier = sides_[side].carrier;
     if (carrier >= bodies_.size()) return robot_.joints[bodies_.joints[carrier - bodies_.size()].index].name;
-    return robot_.links[link_of(carrier)].name;
-  }
-  std::size_t link_of(std::size_t body) const {
-    return std::find(bodies_.of_link.begin(), bodies_.of_link.end(), body) - bodies_.of_link.begin();
+    return robot_.links[bodies_.link_of(carrier)].name;
   }
 
   std::size_t mark_at(std::size_t body, std::size_t hinge) const {
@@ -195,7 +192,7 @@ class ParallelAxes {
             std::size_t s) const {
     const std::size_t first = sides_[a].carrier, second = sides_[c].carrier;
     if (first >= bodies_.size() || second >= bodies_.size()) return;
-    const std::size_t i = link_of(first), k = link_of(second);
+    const std::size_t i = bodies_.link_of(first), k = bodies_.link_of(second);
     const Mat bodies = transpose(frame(first, p, q)) * frame(second, r, s);
     Mat links = transpose(bodies_.placement[i].rotation) * bodies * bodies_.placement[k].rotation;
     for (Vec& row : links) row = algebra_.clean(row);

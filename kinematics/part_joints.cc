@@ -11,11 +11,8 @@ using symbolic::ModelError;
 namespace {
 
 JointKind kind_of(const std::string& word) {
-  for (const JointKind kind : {JointKind::revolute, JointKind::prismatic, JointKind::cylindrical, JointKind::universal,
-                               JointKind::spherical, JointKind::planar, JointKind::parallelogram, JointKind::fixed,
-                               JointKind::distance, JointKind::distance_variable, JointKind::universal_rod}) {
-    if (word == to_string(kind)) return kind;
-  }
+  for (const JointTraits& known : joint_traits())
+    if (word == known.name) return known.kind;
   return word == "crevolute" ? JointKind::revolute : JointKind::fixed;
 }
 
@@ -113,18 +110,16 @@ void PartBuilder::set_axes(Joint& joint) {
 
 void PartBuilder::set_ranges(Joint& joint) {
   const bool is_size = joint.kind == JointKind::spherical;
+  const JointTraits& of_kind = traits(joint.kind);
   switch (joint.kind) {
-    case JointKind::revolute:
-    case JointKind::prismatic:
-    case JointKind::parallelogram:
-    case JointKind::distance_variable:
-    case JointKind::universal_rod: require_brackets(0, 1, "at most one, range [lower, upper]"); break;
     case JointKind::cylindrical: require_brackets(0, 2, "range [of the angle] [of the way]"); break;
     case JointKind::universal:
       if (!draft.brackets.empty()) require_brackets(2, 2, "range [lower, upper] R [lower, upper] R, one for each angle");
       break;
     case JointKind::spherical: require_brackets(0, 1, "range [half angle] R R"); break;
-    default: require_brackets(0, 0, "none for this kind of joint");
+    default:
+      require_brackets(0, of_kind.ranges,
+                       of_kind.ranges > 0 ? "at most one, range [lower, upper]" : "none for this kind of joint");
   }
   for (const JointDraft::Bracket& bracket : draft.brackets) {
     if (!bracket.second && !is_size) {
@@ -142,8 +137,7 @@ void PartBuilder::set_ranges(Joint& joint) {
     }
     joint.ranges.emplace_back(range);
   }
-  const bool turns = joint.kind == JointKind::revolute || joint.kind == JointKind::cylindrical ||
-                     joint.kind == JointKind::universal || joint.kind == JointKind::parallelogram || is_size;
+  const bool turns = of_kind.has_angle || is_size;
   // The frames of a parallelogram's links stay parallel: one direction is that of both.
   if (joint.kind == JointKind::parallelogram && draft.zeros.size() == 1) draft.zeros.push_back(draft.zeros[0]);
   const std::size_t n = draft.references.size() + draft.zeros.size();
@@ -161,18 +155,13 @@ void PartBuilder::set_ranges(Joint& joint) {
                      "range [half angle] R R: a direction in each link, the angle between which is limited");
   }
   for (std::size_t i = 0; i < n; ++i) {
-    Vector direction;
-    if (draft.zeros.empty()) {
+    JointEnd& end = joint.ends[i];
+    const auto direction = [&]() -> Vector {
+      if (!draft.zeros.empty()) return draft.zeros[i];
       const JointDraft::Reference& reference = draft.references[i];
-      direction = reference.is_direction ? reference.value : reference.value - joint.ends[i].point;
-    } else {
-      direction = draft.zeros[i];
-    }
-    if (is_size) {
-      joint.ends[i].axis = direction;
-    } else {
-      joint.ends[i].zero = direction;
-    }
+      return reference.is_direction ? reference.value : reference.value - end.point;
+    };
+    (is_size ? end.axis : end.zero.emplace()) = direction();
   }
 }
 
@@ -264,10 +253,8 @@ void PartBuilder::finish_connector() {
 // Angles that somebody may ask for count between the links' x-axes where both axes are written (0, 0, c).
 void PartBuilder::set_zero_directions() {
   for (Joint& joint : robot.joints) {
-    if (joint.kind != JointKind::revolute && joint.kind != JointKind::cylindrical && joint.kind != JointKind::universal &&
-        joint.kind != JointKind::parallelogram)
-      continue;
-    const bool has_range = !joint.ranges.empty() && joint.ranges[0];
+    if (!traits(joint.kind).has_angle) continue;
+    const bool has_range = joint.range().has_value();
     if (joint.ends[0].zero || !(has_range || joint.actuated || joint.is_named)) continue;
     const auto along_z = [](const JointEnd& end) { return is_literal_zero(end.axis[0]) && is_literal_zero(end.axis[1]); };
     if (joint.kind != JointKind::universal && along_z(joint.ends[0]) && along_z(joint.ends[1])) {

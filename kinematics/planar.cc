@@ -11,216 +11,142 @@ using GiNaC::cos;
 using GiNaC::sin;
 using symbolic::ModelError;
 
-class PlanarRobot {
+class PlanarRobot : Drafter {
  public:
-  PlanarRobot(const Robot& robot, const Bodies& bodies, const std::vector<Vec>& normals, Algebra& algebra, Draft& draft)
-      : robot_(robot), bodies_(bodies), algebra_(algebra), draft_(draft) {
-    for (const Vec& n : normals) basis_.push_back(basis_of(n, algebra));
-    turns_.resize(bodies.groups);
-    origins_.resize(bodies.size());
-    coordinate_.resize(robot.joints.size());
+  PlanarRobot(const Drafter& drafter, const std::vector<Vec>& normals)
+      : Drafter(drafter), plane_{bodies_, algebra_}, coordinates_(robot_.joints.size()) {
+    for (std::size_t g = 0; g < normals.size(); ++g) plane_.basis.emplace(g, basis_of(normals[g], algebra_));
   }
 
   void run() {
-    turns_[0] = Turn{};
-    origins_[0] = PlanePoint{};
+    plane_.turns[0] = {};
+    plane_.origins[0] = {};
     const SpanningTree tree = spanning_tree(robot_, bodies_, algebra_, order());
     for (const TreeEdge& edge : tree.edges) reach(edge);
     for (const std::size_t j : tree.chords) close(bodies_.joints[j]);
     for (const BodyJoint& joint : bodies_.joints) limit(joint);
-    for (const Joint& joint : robot_.joints)
-      if (joint.actuated) draft_.input(symbol_of(&joint - robot_.joints.data()));
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j)
+      if (robot_.joints[j].actuated) draft_.input(draft_.symbol_of(j, *coordinates_[j]));
     for (const Output& output : robot_.outputs) add(output);
     if (draft_.has_branches()) draft_.velocity_of_equations();
-    draw(robot_, bodies_, algebra_, draft_, Space::planar, [this](std::size_t body, const Vec& point) -> Motion {
-      const PlanePoint p = plus(*origins_[body], image(body, point));
+    const auto place = [this](std::size_t body, const Vec& point) { return plane_.place({body, point, {}, {}}); };
+    draw(*this, Space::planar, [&](std::size_t body, const Vec& point) -> Motion {
+      const PlanePoint p = place(body, point);
       return {{p.x(), p.y(), 0}, {}};
     });
-    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
-      const std::size_t body = bodies_.of_link[l];
-      const Placement& at = bodies_.placement[l];
-      Mat axes;
-      for (std::size_t i = 0; i < 3; ++i) axes[i] = world(image(body, transpose(at.rotation)[i]));
-      draft_.pose({world(plus(*origins_[body], image(body, at.translation))), transpose(axes)});
-    }
-    for (const BodyJoint& j : bodies_.joints)
-      if (coordinate_[j.index]) {
-        draft_.joint_value(joint(j).name, *coordinate_[j.index]);
-      } else if (j.kind == JointKind::revolute) {
-        draft_.joint_value(joint(j).name, joint_turn(j).cosine(), joint_turn(j).sine());
-      }
+    report(
+        coordinates_, [&](std::size_t body, const Vec& v) { return world(plane_.image(body, v)); },
+        [&](std::size_t body, const Vec& point) { return world(place(body, point)); },
+        [&](const BodyJoint& j) { return std::pair(joint_turn(j).cosine(), joint_turn(j).sine()); });
   }
 
  private:
-  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
-
-  /// Of a joint that has a coordinate, its own or one that it shares.
-  ex symbol_of(std::size_t index) const { return draft_.symbol_of(index, *coordinate_[index]); }
-
-  bool is_asked_for(std::size_t index) const {
-    if (robot_.joints[index].actuated || draft_.is_coupled(index)) return true;
-    for (const Output& output : robot_.outputs)
-      if (output.kind == Output::Kind::joint && output.joint == index) return true;
-    return false;
-  }
-
   std::vector<int> order() const {
     std::vector<int> list;
     for (const BodyJoint& j : bodies_.joints)
-      list.push_back(keeps_orientation(j.kind) || (j.kind == JointKind::revolute && is_asked_for(j.index)) ? 1 : 0);
+      list.push_back(keeps_orientation(j.kind) || (j.kind == JointKind::revolute && robot_.is_asked_for(j.index)) ? 1 : 0);
     return list;
   }
 
-  std::optional<Range> range(const BodyJoint& j) const {
-    return joint(j).ranges.empty() ? std::nullopt : joint(j).ranges[0];
-  }
-
-  std::size_t group(std::size_t body) const { return bodies_.group[body]; }
-
-  /// A constant vector of a body's frame, in the plane's basis: e1 + i e2.
-  Complex in_plane(std::size_t g, const Vec& v) const {
-    return {algebra_.clean(dot(v, basis_[g][0])), algebra_.clean(dot(v, basis_[g][1]))};
-  }
-  PlanePoint image(std::size_t body, const Vec& v) const {
-    const std::size_t g = group(body);
-    PlanePoint p;
-    p.add(*turns_[g], in_plane(g, v));
-    p.height = dot(v, basis_[g][2]);
-    return p;
-  }
-  PlanePoint place(const BodyEnd& end) const { return plus(*origins_[end.body], image(end.body, end.point)); }
-
-  /// +1 where turning about the joint's axis is turning about the plane's normal.
-  int sense(const BodyJoint& j) const { return algebra_.sign(dot(j.ends[0].axis, basis_[group(j.ends[0].body)][2])); }
-  /// By what end 1's zero is turned from end 0's, about the normal.
-  Turn turned(const BodyJoint& j) const {
-    const auto zero = [&](const BodyEnd& e) { return *turns_[group(e.body)] * Turn{in_plane(group(e.body), e.zero)}; };
-    return zero(j.ends[1]) * inverse(zero(j.ends[0]));
-  }
-
-  /// The link that gives a body its name: the first that is not a mere frame.
-  const std::string& link_of(std::size_t body) const {
-    for (std::size_t l = 0; l < robot_.links.size(); ++l)
-      if (bodies_.of_link[l] == body) return robot_.links[l].name;
-    return robot_.links[0].name;
-  }
   std::string angle_name(std::size_t body) const {
     for (const Output& output : robot_.outputs) {
       const bool turns = output.kind == Output::Kind::orientation || output.kind == Output::Kind::pose;
       if (!turns || bodies_.of_link[output.relative_to] != 0 || group(bodies_.of_link[output.link]) != group(body)) continue;
       return output.kind == Output::Kind::pose ? output.name + "_phi" : output.name;
     }
-    return "phi_" + link_of(body);
+    return "phi_" + name_of(body);
   }
 
   void reach(const TreeEdge& edge) {
     const BodyJoint& j = bodies_.joints[edge.joint];
     const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
     const SourceLocation& where = joint(j).where;
-    if (!turns_[group(child.body)]) turns_[group(child.body)] = child_turn(j, edge.from);
-    PlanePoint origin = place(parent);
+    if (!plane_.turns.contains(group(child.body))) plane_.turns.emplace(group(child.body), child_turn(j, edge.from));
+    PlanePoint origin = plane_.place(parent);
     if (keeps_orientation(j.kind)) {
       origin = plus(origin, way(j), edge.from == 0 ? 1 : -1);
     } else if (j.kind == JointKind::planar) {
-      origin.add(*turns_[group(parent.body)], {draft_.length(joint(j).name + "_x", {}, where),  //
-                                               draft_.length(joint(j).name + "_y", {}, where)});
+      origin.add(plane_.turns.at(group(parent.body)), {draft_.length(joint(j).name + "_x", {}, where),  //
+                                                       draft_.length(joint(j).name + "_y", {}, where)});
     }
-    origins_[child.body] = plus(origin, image(child.body, child.point), -1);
+    plane_.origins[child.body] = plane_.origin(origin, child);
     // Where prismatic joints already carry the child's direction, no coordinate is this joint's angle yet.
-    if (j.kind == JointKind::revolute && is_asked_for(j.index) && !coordinate_[j.index]) close_angle(j);
+    if (j.kind == JointKind::revolute && robot_.is_asked_for(j.index) && !coordinates_[j.index]) close_angle(j);
   }
 
   /// Of end 1's point from end 0's, with the joint's coordinate.
   PlanePoint way(const BodyJoint& j) {
-    const Joint& of = joint(j);
     const BodyEnd& e = j.ends[0];
-    const Turn& base = *turns_[group(e.body)];
-    PlanePoint p;
-    if (j.kind == JointKind::prismatic) {
-      coordinate_[j.index] = draft_.joint_way(j.index, of.name).value();
-      const Complex along = in_plane(group(e.body), e.axis);
-      p.add(base, {*coordinate_[j.index] * along.re, *coordinate_[j.index] * along.im});
-    } else {
-      const ex radius = algebra_.constant(of.length, of.where);
-      const Complex zero = in_plane(group(e.body), e.zero);
-      p.add(base * own_turn(j, of.name, sense(j)), {radius * zero.re, radius * zero.im});
-    }
-    return p;
+    if (j.kind == JointKind::prismatic) return plane_.way(e.body, e.axis, own_way(j));
+    const ex radius = algebra_.constant(joint(j).length, joint(j).where);
+    return plane_.way(e.body, e.zero, radius, own_turn(j, joint(j).name, plane_.sense(j)));
   }
 
+  /// The joint's way, or length, which becomes a coordinate.
+  const ex& own_way(const BodyJoint& j) {
+    return coordinates_[j.index].emplace(draft_.joint_way(j.index, joint(j).name).value());
+  }
   /// e^{i sign θ}, θ the joint's angle, which becomes a coordinate.
   Turn own_turn(const BodyJoint& j, const std::string& name, int sign) {
     const Draft::JointCoordinate theta = draft_.joint_angle(j.index, name);
-    coordinate_[j.index] = theta.value();
+    coordinates_[j.index] = theta.value();
     return theta.turn(sign);
   }
 
   Turn child_turn(const BodyJoint& j, std::size_t from) {
     const BodyEnd &parent = j.ends[from], &child = j.ends[1 - from];
     const SourceLocation& where = joint(j).where;
-    const Turn& base = *turns_[group(parent.body)];
-    const bool from_ground = base.angle.is_zero();
-    const bool named = is_asked_for(j.index) || joint(j).is_named;
+    const bool from_ground = plane_.turns.at(group(parent.body)).angle.is_zero(), asked_for = robot_.is_asked_for(j.index),
+               named = asked_for || joint(j).is_named;
     // A joint that is told from the link to the ground counts the link's angle backwards: it needs a reason to be it.
-    const bool is_link_angle = from == 0 || named || range(j);
-    if (j.kind != JointKind::revolute || !(is_asked_for(j.index) || (from_ground && is_link_angle)))
+    const bool is_link_angle = from == 0 || named || joint(j).range();
+    if (j.kind != JointKind::revolute || !(asked_for || (from_ground && is_link_angle)))
       return {{1, 0}, draft_.angle(angle_name(child.body), {}, where)};
-    const Turn theta = own_turn(j, named ? joint(j).name : angle_name(child.body), sense(j) * (from == 0 ? 1 : -1));
-    const Complex z0 = in_plane(group(parent.body), parent.zero), z1 = in_plane(group(child.body), child.zero);
-    const Turn turn = base * Turn{z0} * theta * Turn{conjugate(z1)};
-    return {{algebra_.clean(turn.k.re), algebra_.clean(turn.k.im)}, turn.angle};
+    const int sign = plane_.sense(j) * (from == 0 ? 1 : -1);
+    return plane_.carried(parent, child, own_turn(j, named ? joint(j).name : angle_name(child.body), sign));
   }
 
   void all_zero(const PlanePoint& p, const Joint& of) {
     const std::string what = "the loop that the joint '" + of.name + "' closes";
     draft_.equation(p.height, "height", of.where, what + " leaves the plane and");
-    draft_.closing({p.x(), p.y()}, draft_.branches().of_loop(p, seen()), "loop", of.where, what);
+    draft_.closing({p.x(), p.y()}, draft_.branches().of_loop(p, plane_), "loop", of.where, what);
   }
 
-  BranchFinder::Image seen() const {
-    return [this](std::size_t body, const Vec& way) { return *turns_[group(body)] * Turn{in_plane(group(body), way)}; };
-  }
-
-  /// The angle of a turn, where no coordinate is it: sin(turn − θ) = 0 and cos(turn − θ) ≥ 0.
-  void equal(const Turn& turn, const Turn& minus_theta, const SourceLocation& where) {
-    const Turn difference = turn * minus_theta;
-    if (!draft_.equation(difference.sine(), "angle", where)) return;
-    draft_.at_least_zero(difference.cosine(), "angle", where);
-  }
+  /// The angle of a turn, where no coordinate is it.
   ex angle_of(const Turn& turn, const std::string& name, const std::optional<Range>& range, const SourceLocation& where) {
     const ex theta = draft_.angle(name, range, where);
-    equal(turn, {{1, 0}, -theta}, where);
+    draft_.no_turn(turn * Turn{{1, 0}, -theta}, where);
     return theta;
   }
-  void close_angle(const BodyJoint& j) { equal(joint_turn(j), own_turn(j, joint(j).name, -1), joint(j).where); }
+  void close_angle(const BodyJoint& j) {
+    const Turn turn = joint_turn(j);
+    draft_.no_turn(turn * own_turn(j, joint(j).name, -1), joint(j).where);
+  }
 
   Turn joint_turn(const BodyJoint& j) const {
-    const Turn about_normal = turned(j);
-    return sense(j) > 0 ? about_normal : inverse(about_normal);
+    const Turn about_normal = plane_.turned(j);
+    return plane_.sense(j) > 0 ? about_normal : inverse(about_normal);
   }
 
   void close(const BodyJoint& j) {
     const Joint& of = joint(j);
-    const PlanePoint gap = plus(place(j.ends[1]), place(j.ends[0]), -1);
+    const PlanePoint gap = plus(plane_.place(j.ends[1]), plane_.place(j.ends[0]), -1);
     switch (j.kind) {
       case JointKind::revolute:
         all_zero(gap, of);
-        if (is_asked_for(j.index)) close_angle(j);
+        if (robot_.is_asked_for(j.index)) close_angle(j);
         break;
       case JointKind::prismatic:
       case JointKind::parallelogram: all_zero(plus(gap, way(j), -1), of); break;
       case JointKind::planar: draft_.equation(gap.height, "height", of.where, "the joint '" + of.name + "'"); break;
       case JointKind::distance: {
         const ex length = algebra_.constant(of.length, of.where);
-        const std::size_t number = &j - bodies_.joints.data();
-        draft_.closing({gap.squared() - length * length}, draft_.branches().of_rod(number, gap, seen()), "rod", of.where,
+        draft_.closing({gap.squared() - length * length}, draft_.branches().of_rod(number(j), gap, plane_), "rod", of.where,
                        "the rod '" + of.name + "'");
         break;
       }
       case JointKind::distance_variable: {
-        const ex length = draft_.length(of.name, range(j), of.where);
-        draft_.limit_last();
-        coordinate_[j.index] = length;
+        const ex length = own_way(j);
         draft_.equation(gap.squared() - length * length, "rod", of.where);
         break;
       }
@@ -230,38 +156,32 @@ class PlanarRobot {
 
   // Ranges of angles that are no coordinates: cos(θ − middle) ≥ cos(half).
   void limit(const BodyJoint& j) {
-    if (j.kind != JointKind::revolute || coordinate_[j.index] || !range(j)) return;
     const Joint& of = joint(j);
-    const ex lower = algebra_.constant(range(j)->lower, of.where), upper = algebra_.constant(range(j)->upper, of.where);
-    const ex middle = (lower + upper) / 2, half = (upper - lower) / 2;
-    if (algebra_.sign(half - GiNaC::Pi) >= 0) return;
-    const Turn theta = joint_turn(j) * Turn{{cos(middle), -sin(middle)}};
-    draft_.at_least_zero(theta.cosine() - cos(half), "range", of.where);
+    if (j.kind != JointKind::revolute || coordinates_[j.index] || !of.range()) return;
+    const auto arc = draft_.arc(*of.range(), of.where);
+    if (!arc) return;
+    const Turn theta = joint_turn(j) * Turn{{cos(arc->middle), -sin(arc->middle)}};
+    draft_.at_least_zero(theta.cosine() - cos(arc->half), "range", of.where);
   }
 
   /// In the world's axes.
-  Vec world(const PlanePoint& p) const { return p.x() * basis_[0][0] + p.y() * basis_[0][1] + p.height * basis_[0][2]; }
+  Vec world(const PlanePoint& p) const { return in_frame(0, p); }
+  Vec in_frame(std::size_t g, const PlanePoint& p) const {
+    const Mat& b = plane_.basis.at(g);
+    return p.x() * b[0] + p.y() * b[1] + p.height * b[2];
+  }
 
   void add(const Output& output) {
     if (output.kept)
       throw ModelError(output.where, "the output '" + output.name + "' keeps an orientation in a plane",
                        "for a robot that moves in a plane: range phi [a, a]");
     const std::size_t body = bodies_.of_link[output.link], base = bodies_.of_link[output.relative_to];
-    switch (output.kind) {
-      case Output::Kind::joint:
-        if (!coordinate_[output.joint])
-          throw ModelError(output.where, "the joint '" + robot_.joints[output.joint].name + "' has no coordinate",
-                           "a revolute or prismatic joint, or a rod of variable length");
-        draft_.output(symbol_of(output.joint));
-        return;
-      case Output::Kind::direction:
-        throw ModelError(output.where, "a direction is an output of a robot that moves in a plane",
-                         "orientation of the link");
-      default: break;
-    }
+    if (output.kind == Output::Kind::joint) return draft_.output_of_joint(output, coordinates_[output.joint]);
+    if (output.kind == Output::Kind::direction)
+      throw ModelError(output.where, "a direction is an output of a robot that moves in a plane", "orientation of the link");
     if (output.kind != Output::Kind::orientation) add_position(output, base);
     if (output.kind == Output::Kind::position) return;
-    const Turn relative = inverse(*turns_[group(base)]) * *turns_[group(body)];
+    const Turn relative = inverse(plane_.turns.at(group(base))) * plane_.turns.at(group(body));
     const bool is_coordinate =
         algebra_.is_zero(relative.k.im) && algebra_.sign(relative.k.re) > 0 && GiNaC::is_a<GiNaC::symbol>(relative.angle);
     const std::string name = output.kind == Output::Kind::pose ? output.name + "_phi" : output.name;
@@ -273,8 +193,7 @@ class PlanarRobot {
   void add_position(const Output& output, std::size_t base) {
     const auto at = [&](std::size_t link, const Vec& point) {
       const Placement& p = bodies_.placement[link];
-      const std::size_t b = bodies_.of_link[link];
-      return plus(*origins_[b], image(b, p.translation + p.rotation * point));
+      return plane_.place({bodies_.of_link[link], p.translation + p.rotation * point, {}, {}});
     };
     PlanePoint point = at(output.link, algebra_.vector(output.point, output.where));
     Vec components;
@@ -284,31 +203,16 @@ class PlanarRobot {
     } else {
       const PlanePoint way = plus(point, at(output.relative_to, {0, 0, 0}), -1);
       PlanePoint seen;
-      for (const auto& [angle, k] : way.terms) seen.add(Turn{k, angle} * inverse(*turns_[group(base)]), {1, 0});
+      for (const auto& [angle, k] : way.terms) seen.add(Turn{k, angle} * inverse(plane_.turns.at(group(base))), {1, 0});
       seen.height = way.height;
-      const auto& b = basis_[group(base)];
-      components = transpose(bodies_.placement[output.relative_to].rotation) *
-                   (seen.x() * b[0] + seen.y() * b[1] + seen.height * b[2]);
+      components = transpose(bodies_.placement[output.relative_to].rotation) * in_frame(group(base), seen);
     }
-    const std::array<bool, 3> moves = draft_.moving(output, components);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!moves[i]) continue;
-      const ex coordinate = draft_.length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
-      draft_.equation(coordinate - components[i], "output", output.where);
-      draft_.output(coordinate);
-    }
-    if (moves == std::array<bool, 3>{})
+    if (draft_.output_components(output, components) == std::array<bool, 3>{})
       throw ModelError(output.where, "the output '" + output.name + "' does not move", "a point of a link that moves");
   }
 
-  const Robot& robot_;
-  const Bodies& bodies_;
-  Algebra& algebra_;
-  Draft& draft_;
-  std::vector<Mat> basis_;                          // e1, e2, n of each group
-  std::vector<std::optional<Turn>> turns_;          // of each group
-  std::vector<std::optional<PlanePoint>> origins_;  // of each body
-  std::vector<std::optional<ex>> coordinate_;       // of each joint of the robot
+  Plane plane_;
+  std::vector<std::optional<ex>> coordinates_;  // of each joint of the robot
 };
 
 }  // namespace
@@ -382,7 +286,7 @@ std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& al
 
 void draft_planar(const Robot& robot, const Bodies& bodies, const std::vector<Vec>& normals, Algebra& algebra,
                   Draft& draft) {
-  PlanarRobot(robot, bodies, normals, algebra, draft).run();
+  PlanarRobot({robot, bodies, algebra, draft}, normals).run();
 }
 
 }  // namespace corank::kinematics

@@ -100,35 +100,18 @@ std::vector<Joints> loops_of(const Bodies& bodies, const Joints& joints) {
 
 }  // namespace
 
-Complex PlanePart::in_plane(std::size_t group, const Vec& v, const Algebra& algebra) const {
-  const Mat& own = basis.at(group);
-  return {algebra.clean(dot(v, own[0])), algebra.clean(dot(v, own[1]))};
-}
-
-PlanePoint PlanePart::image(std::size_t group, const Vec& v, const Algebra& algebra) const {
-  PlanePoint p;
-  p.add(turns.at(group), in_plane(group, v, algebra));
-  p.height = dot(v, basis.at(group)[2]);
-  return p;
-}
-
-int PlanePart::sense(const Bodies& of, const BodyJoint& joint, const Algebra& algebra) const {
-  return algebra.sign(algebra.clean(dot(joint.ends[0].axis, basis.at(of.group[joint.ends[0].body])[2])));
-}
-
-PlaneLoops::PlaneLoops(const Bodies& bodies, const Algebra& algebra) : part_of_(bodies.joints.size()) {
+PlaneLoops::PlaneLoops(const Bodies& bodies, const Algebra& algebra) : bodies_(bodies), part_of_(bodies.joints.size()) {
   for (std::size_t seed = 0; seed < bodies.joints.size(); ++seed) {
     if (has(seed) || bodies.joints[seed].kind != JointKind::revolute) continue;
     const Direction direction(bodies, algebra, seed);
     for (const Joints& joints : loops_of(bodies, direction.joints)) {
       if (std::any_of(joints.begin(), joints.end(), [&](std::size_t j) { return has(j); })) continue;
-      PlanePart part;
+      PlanePart part{{bodies, algebra}};
       for (const std::size_t j : joints) {
         part_of_[j] = parts_.size();
         for (const BodyEnd& end : bodies.joints[j].ends) {
           const std::size_t g = bodies.group[end.body];
-          const Vec& n = direction.normals.at(g);
-          part.basis.emplace(g, basis_of(n, algebra));
+          part.basis.emplace(g, basis_of(direction.normals.at(g), algebra));
         }
       }
       parts_.push_back(std::move(part));
@@ -136,11 +119,11 @@ PlaneLoops::PlaneLoops(const Bodies& bodies, const Algebra& algebra) : part_of_(
   }
 }
 
-PlanePart* PlaneLoops::closing(const Bodies& bodies, std::size_t joint) {
+PlanePart* PlaneLoops::closing(std::size_t joint) {
   PlanePart* const part = of(joint);
   if (part == nullptr) return nullptr;
-  for (const BodyEnd& end : bodies.joints[joint].ends)
-    if (!part->bodies.contains(end.body) || !part->turns.contains(bodies.group[end.body])) return nullptr;
+  for (const BodyEnd& end : bodies_.joints[joint].ends)
+    if (!part->reached.contains(end.body) || !part->turns.contains(bodies_.group[end.body])) return nullptr;
   return part;
 }
 

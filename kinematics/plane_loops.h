@@ -8,33 +8,25 @@
 #include <set>
 #include <vector>
 
-#include "corank/kinematics/bodies.h"
 #include "corank/kinematics/plane.h"
 
 namespace corank::kinematics {
 
-/// Loops with one direction of axes that hang together. Frames and SpatialRobot fill in how its bodies lie.
-struct PlanePart {
+/// Loops with one direction of axes that hang together. Frames and SpatialRobot fill in how its bodies lie, from the one that
+/// carries the others.
+struct PlanePart : Plane {
   struct Rate {
     std::size_t joint;  ///< in Bodies::joints
     int sign;
   };
-  std::map<std::size_t, Mat> basis;                  ///< e1, e2 and the normal n of each group, in its frame
-  std::optional<std::size_t> root;                   ///< the body that carries the others: it has the plane
-  std::optional<Vec> normal;                         ///< in the world
-  std::set<std::size_t> bodies;                      ///< those that were reached within the part
-  std::map<std::size_t, Turn> turns;                 ///< of each group, from the root's
-  std::map<std::size_t, ex> angles;                  ///< of each group whose angle from the root is a coordinate of its own
-  std::map<std::size_t, PlanePoint> origins;         ///< of each body's frame, from the root's
-  std::map<std::size_t, std::vector<Rate>> turning;  ///< of each group from the root: the sum of these joints' rates
-  std::set<std::size_t> following;                   ///< joints of the tree between groups that others turn already
+  std::optional<std::size_t> root{};   ///< the body that carries the others: it has the plane
+  std::optional<Vec> normal{};         ///< in the world
+  std::set<std::size_t> reached{};     ///< bodies, within the part
+  std::map<std::size_t, ex> angles{};  ///< of each group whose angle from the root is a coordinate of its own
+  std::map<std::size_t, std::vector<Rate>> turning{};  ///< of each group from the root: the sum of these joints' rates
+  std::set<std::size_t> following{};                   ///< joints of the tree between groups that others turn already
   /// Of each joint that closes a loop what its equations set to 0: the gap's two components, or half of a rod's square.
-  std::map<std::size_t, std::vector<ex>> closings;
-
-  Complex in_plane(std::size_t group, const Vec& v, const Algebra& algebra) const;
-  PlanePoint image(std::size_t group, const Vec& v, const Algebra& algebra) const;
-  /// +1 where turning about the joint's axis is turning about the normal.
-  int sense(const Bodies& bodies, const BodyJoint& joint, const Algebra& algebra) const;
+  std::map<std::size_t, std::vector<ex>> closings{};
 };
 
 class PlaneLoops {
@@ -45,9 +37,10 @@ class PlaneLoops {
   /// Nothing where the joint, by its index in Bodies::joints, is in no loop of this sort.
   PlanePart* of(std::size_t joint) { return has(joint) ? &parts_[*part_of_[joint]] : nullptr; }
   /// The part in whose plane a joint closes a loop.
-  PlanePart* closing(const Bodies& bodies, std::size_t joint);
+  PlanePart* closing(std::size_t joint);
 
  private:
+  const Bodies& bodies_;
   std::vector<PlanePart> parts_;
   std::vector<std::optional<std::size_t>> part_of_;
 };

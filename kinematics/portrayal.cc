@@ -9,24 +9,17 @@ namespace {
 
 using Part = symbolic::DrawingPart::Kind;
 
-class Portrayal {
+class Portrayal : Drafter {
  public:
-  Portrayal(const Robot& robot, const Bodies& bodies, const Algebra& algebra, Draft& draft, Space space,
-            const std::function<Motion(std::size_t, const Vec&)>& place)
-      : robot_(robot),
-        bodies_(bodies),
-        algebra_(algebra),
-        draft_(draft),
-        space_(space),
-        place_(place),
-        corners_(bodies.size()) {}
+  Portrayal(const Drafter& drafter, Space space, const std::function<Motion(std::size_t, const Vec&)>& place)
+      : Drafter(drafter), space_(space), place_(place), corners_(bodies_.size()) {}
 
   void run() {
     // Joints that turn name the points that others share with them.
     for (const BodyJoint& j : bodies_.joints)
-      if (points_coincide(j.kind)) add_corners(j);
+      if (turns_about_point(j.kind)) add_corners(j);
     for (const BodyJoint& j : bodies_.joints)
-      if (!points_coincide(j.kind)) add_corners(j);
+      if (!turns_about_point(j.kind)) add_corners(j);
     for (const BodyJoint& j : bodies_.idle_rods) add_corners(j);
     for (const Output& output : robot_.outputs)
       if (output.kind == Output::Kind::position || output.kind == Output::Kind::pose) {
@@ -50,10 +43,6 @@ class Portrayal {
     std::string name;
   };
 
-  static bool points_coincide(JointKind kind) {
-    return kind == JointKind::revolute || kind == JointKind::universal || kind == JointKind::spherical;
-  }
-
   void add_corners(const BodyJoint& j) {
     if (is_on_rail(j)) {
       const std::size_t block = block_of(j);
@@ -61,7 +50,7 @@ class Portrayal {
       return;
     }
     const std::string at = corner(j.ends[0].body, local(j.ends[0]), label(j, 0));
-    if (!points_coincide(j.kind)) {
+    if (!turns_about_point(j.kind)) {
       corner(j.ends[1].body, local(j.ends[1]), label(j, 1));
     } else if (!known(j.ends[1].body, local(j.ends[1]))) {
       corners_[j.ends[1].body].push_back({local(j.ends[1]), at});
@@ -76,9 +65,9 @@ class Portrayal {
 
   /// As the point is called, of an end or of the other one, or as the joint is.
   std::string label(const BodyJoint& j, std::size_t end) const {
-    const Joint& joint = robot_.joints[j.index];
-    if (points_coincide(j.kind) && joint.ends[end].label.empty()) end = 1 - end;
-    return joint.ends[end].label.empty() ? joint.name : joint.ends[end].label;
+    const Joint& of = joint(j);
+    if (turns_about_point(j.kind) && of.ends[end].label.empty()) end = 1 - end;
+    return of.ends[end].label.empty() ? of.name : of.ends[end].label;
   }
 
   /// Where a joint is drawn: of a spherical robot, whose axes meet, on a sphere.
@@ -209,15 +198,15 @@ class Portrayal {
 
   /// A rail as long as the joint's range and the block; about the ground's point where the joint has no range.
   void add_block(const BodyJoint& j) {
-    const Joint& joint = robot_.joints[j.index];
+    const Joint& of = joint(j);
     const std::size_t block = block_of(j);
     const BodyEnd& ground = j.ends[1 - block];
     const int side = block == 1 ? 1 : -1;
     const double typical = size();
     double low = -typical, high = typical;
-    if (!joint.ranges.empty() && joint.ranges[0]) {
-      low = algebra_.value(algebra_.constant(joint.ranges[0]->lower, joint.where));
-      high = algebra_.value(algebra_.constant(joint.ranges[0]->upper, joint.where));
+    if (const auto range = of.range()) {
+      low = algebra_.value(algebra_.constant(range->lower, of.where));
+      high = algebra_.value(algebra_.constant(range->upper, of.where));
     }
     const double over = 0.1 * std::max(high - low, typical);  // beyond the block's last places
     const double step =
@@ -225,7 +214,7 @@ class Portrayal {
     const auto end = [&](double way) {
       const ex rounded = side * GiNaC::numeric(std::lround(way / step)) *
                          GiNaC::pow(GiNaC::numeric(10), GiNaC::numeric(std::lround(std::log10(step))));
-      return draft_.point(joint.name + "_rail", place_(0, ground.point + rounded * ground.axis).at, {}, 2);
+      return draft_.point(of.name + "_rail", place_(0, ground.point + rounded * ground.axis).at, {}, 2);
     };
     const std::string from = end(low - over), to = end(high + over);
     draft_.part(Part::slider, {corner(j.ends[block].body, local(j.ends[block])), from, to});
@@ -250,7 +239,7 @@ class Portrayal {
       case JointKind::revolute:
         if (space_ == Space::spatial) {
           const Motion along = place_(e.body, e.point + e.axis);
-          draft_.part(Part::hinge, {at, draft_.point(robot_.joints[j.index].name + "_axis", along.at, {}, 3)});
+          draft_.part(Part::hinge, {at, draft_.point(joint(j).name + "_axis", along.at, {}, 3)});
           break;
         }
         [[fallthrough]];
@@ -258,10 +247,6 @@ class Portrayal {
     }
   }
 
-  const Robot& robot_;
-  const Bodies& bodies_;
-  const Algebra& algebra_;
-  Draft& draft_;
   Space space_;
   const std::function<Motion(std::size_t, const Vec&)>& place_;
   std::vector<std::vector<Corner>> corners_;  // of each body
@@ -270,9 +255,8 @@ class Portrayal {
 
 }  // namespace
 
-void draw(const Robot& robot, const Bodies& bodies, const Algebra& algebra, Draft& draft, Space space,
-          const std::function<Motion(std::size_t, const Vec&)>& place) {
-  Portrayal(robot, bodies, algebra, draft, space, place).run();
+void draw(const Drafter& drafter, Space space, const std::function<Motion(std::size_t, const Vec&)>& place) {
+  Portrayal(drafter, space, place).run();
 }
 
 }  // namespace corank::kinematics

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 
-#include "corank/kinematics/bodies.h"
 #include "corank/kinematics/draft.h"
 
 namespace corank::kinematics {
@@ -16,7 +15,6 @@ struct Motion {
 };
 
 /// Draws in the plane or in space; `place` is where a body's point is.
-void draw(const Robot& robot, const Bodies& bodies, const Algebra& algebra, Draft& draft, Space space,
-          const std::function<Motion(std::size_t body, const Vec& point)>& place);
+void draw(const Drafter& drafter, Space space, const std::function<Motion(std::size_t body, const Vec& point)>& place);
 
 }  // namespace corank::kinematics

@@ -13,21 +13,30 @@ int find(const std::vector<Named>& list, const std::string& name) {
 
 }  // namespace
 
-const char* to_string(JointKind kind) {
-  switch (kind) {
-    case JointKind::revolute: return "revolute";
-    case JointKind::prismatic: return "prismatic";
-    case JointKind::cylindrical: return "cylindrical";
-    case JointKind::universal: return "universal";
-    case JointKind::spherical: return "spherical";
-    case JointKind::planar: return "planar";
-    case JointKind::parallelogram: return "parallelogram";
-    case JointKind::fixed: return "fix";
-    case JointKind::distance: return "sph_sph";
-    case JointKind::distance_variable: return "sph_prs_sph";
-    case JointKind::universal_rod: return "uni_prs_uni";
-  }
-  return "?";
+std::span<const JointTraits> joint_traits() {
+  using enum JointKind;
+  static constexpr std::array<JointTraits, 11> kTraits{{{revolute, "revolute", 1, 1, true, true},
+                                                        {prismatic, "prismatic", 1, 1, true},
+                                                        {cylindrical, "cylindrical", 2, 2, true, true},
+                                                        {universal, "universal", 2, 2, true, true},
+                                                        {spherical, "spherical", 3, 1},
+                                                        {planar, "planar", 3, 0, true},
+                                                        {parallelogram, "parallelogram", 1, 1, true, true},
+                                                        {fixed, "fix", 0},
+                                                        {distance, "sph_sph", 5},
+                                                        {distance_variable, "sph_prs_sph", 6, 1},
+                                                        {universal_rod, "uni_prs_uni", 5, 1, true}}};
+  return kTraits;
+}
+
+const JointTraits& traits(JointKind kind) { return *std::ranges::find(joint_traits(), kind, &JointTraits::kind); }
+
+bool Robot::is_coupled(std::size_t joint) const {
+  return std::ranges::any_of(couplings, [&](const Coupling& c) { return c.driver == joint || c.follower == joint; });
+}
+
+bool Robot::is_output(std::size_t joint) const {
+  return std::ranges::any_of(outputs, [&](const Output& o) { return o.kind == Output::Kind::joint && o.joint == joint; });
 }
 
 int Robot::find_link(const std::string& link) const { return find(links, link); }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,19 @@ enum class JointKind {
   universal_rod  ///< universal–prismatic–universal, inner axes parallel: such a rod in one plane with the ends' axes
 };
 
+struct JointTraits {
+  JointKind kind;
+  const char* name;        ///< "revolute" …, "fix", "sph_sph", "sph_prs_sph", "uni_prs_uni"
+  int freedom;             ///< in how many ways its links move on each other
+  std::size_t ranges = 0;  ///< of so many values of its own at most
+  bool has_axis = false;
+  bool has_angle = false;  ///< which counts from a zero direction
+};
+/// Of all kinds.
+std::span<const JointTraits> joint_traits();
+const JointTraits& traits(JointKind kind);
+inline const char* to_string(JointKind kind) { return traits(kind).name; }
+
 /// A rod whose length is a coordinate.
 inline bool is_extensible(JointKind kind) {
   return kind == JointKind::distance_variable || kind == JointKind::universal_rod;
@@ -64,12 +78,12 @@ inline bool is_extensible(JointKind kind) {
 inline bool is_rod(JointKind kind) { return kind == JointKind::distance || is_extensible(kind); }
 /// Do the frames of a moving joint's two links stay as they are turned to each other?
 inline bool keeps_orientation(JointKind kind) { return kind == JointKind::prismatic || kind == JointKind::parallelogram; }
-/// Does the joint leave one way to move?
+/// Does the joint leave one way to move, which other joints may follow?
 inline bool moves_one_way(JointKind kind) { return kind == JointKind::revolute || keeps_orientation(kind); }
-/// Is the joint's one coordinate an angle, or a way along its axis, that other joints may follow?
-inline bool may_be_coupled(JointKind kind) { return kind == JointKind::revolute || keeps_orientation(kind); }
-
-const char* to_string(JointKind kind);  ///< "revolute" …, "sph_sph", "sph_prs_sph", "uni_prs_uni"
+/// Do its links turn about a point, which is that of both ends?
+inline bool turns_about_point(JointKind kind) {
+  return kind == JointKind::revolute || kind == JointKind::universal || kind == JointKind::spherical;
+}
 
 /// Of a joint on one of its two links.
 struct JointEnd {
@@ -100,6 +114,8 @@ struct Joint {
   bool actuated = false;
   bool is_named = false;  ///< by the author; else the reader made the name
   SourceLocation where;
+
+  std::optional<Range> range(std::size_t i = 0) const { return i < ranges.size() ? ranges[i] : std::nullopt; }
 };
 
 /// One joint follows another, as by a gear: its angle (of a revolute joint or a parallelogram) or its way (of a prismatic
@@ -154,6 +170,10 @@ struct Robot {
   /// Index of a link, of a joint; −1 where there is none.
   int find_link(const std::string& link) const;
   int find_joint(const std::string& joint) const;
+  /// Does the joint follow another one, or lead one? Is it an output? Is it either, or actuated?
+  bool is_coupled(std::size_t joint) const;
+  bool is_output(std::size_t joint) const;
+  bool is_asked_for(std::size_t joint) const { return joints[joint].actuated || is_coupled(joint) || is_output(joint); }
 
   // For robots built in C++. Links and joints are known by their names; each returns the index.
   std::size_t link(const std::string& name);

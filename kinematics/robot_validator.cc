@@ -15,33 +15,13 @@ namespace {
 using symbolic::in_quotes;
 using symbolic::ModelError;
 
-std::size_t most_ranges(JointKind kind) {
-  switch (kind) {
-    case JointKind::revolute:
-    case JointKind::prismatic:
-    case JointKind::parallelogram:
-    case JointKind::spherical:
-    case JointKind::distance_variable:
-    case JointKind::universal_rod: return 1;
-    case JointKind::cylindrical:
-    case JointKind::universal: return 2;
-    default: return 0;
-  }
+bool has_axis(const Joint& joint) {
+  const bool has_cone = joint.kind == JointKind::spherical && joint.range();
+  return traits(joint.kind).has_axis || has_cone;
 }
 
-bool has_axis(const Joint& joint) {
-  switch (joint.kind) {
-    case JointKind::revolute:
-    case JointKind::prismatic:
-    case JointKind::cylindrical:
-    case JointKind::universal:
-    case JointKind::parallelogram:
-    case JointKind::planar:
-    case JointKind::universal_rod: return true;
-    case JointKind::spherical: return !joint.ranges.empty() && joint.ranges[0];  // of the cone
-    default: return false;
-  }
-}
+/// An angle or a displacement of its own, that may be an input or an output.
+bool has_coordinate(JointKind kind) { return kind != JointKind::spherical && traits(kind).ranges > 0; }
 
 class RobotValidator {
  public:
@@ -80,9 +60,7 @@ class RobotValidator {
     if (joint.kind == JointKind::fixed) check_pose(joint.pose, what, where);
     if (joint.kind == JointKind::distance || joint.kind == JointKind::parallelogram)
       require_positive(joint.length, "the length of " + what, "a length above 0", where);
-    const bool cannot_be_driven = joint.kind == JointKind::fixed || joint.kind == JointKind::distance ||
-                                  joint.kind == JointKind::spherical || joint.kind == JointKind::planar;
-    if (joint.actuated && cannot_be_driven) {
+    if (joint.actuated && !has_coordinate(joint.kind)) {
       throw ModelError(where, what + " cannot be actuated: it has no angle or displacement of its own",
                        "an actuated joint of the kind revolute, prismatic, parallelogram, cylindrical, universal, "
                        "sph_prs_sph or uni_prs_uni");
@@ -104,7 +82,7 @@ class RobotValidator {
       const Joint &follower = robot_.joints[c.follower], &leader = robot_.joints[c.driver];
       const std::string what = described(follower) + " follows " + described(leader);
       const bool slides = follower.kind == JointKind::prismatic;
-      if (!may_be_coupled(follower.kind) || !may_be_coupled(leader.kind) || slides != (leader.kind == JointKind::prismatic))
+      if (!moves_one_way(follower.kind) || !moves_one_way(leader.kind) || slides != (leader.kind == JointKind::prismatic))
         throw ModelError(where, what, "two joints that turn, revolute or parallelogram, or two prismatic ones");
       if (driver[c.follower] != c.follower)
         throw ModelError(where, described(follower) + " follows two joints", "one joint that it follows");
@@ -141,7 +119,7 @@ class RobotValidator {
       if (output.joint >= robot_.joints.size())
         throw ModelError(where, what + " is of a joint that is not there", "a joint of the robot");
       const Joint& joint = robot_.joints[output.joint];
-      if (most_ranges(joint.kind) == 0 || joint.kind == JointKind::spherical) {
+      if (!has_coordinate(joint.kind)) {
         throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or displacement of its own",
                          "a revolute, prismatic, parallelogram, cylindrical, universal, sph_prs_sph or uni_prs_uni joint");
       }
@@ -276,7 +254,7 @@ class RobotValidator {
   }
 
   void check_ranges(const Joint& joint, const std::string& what, const symbolic::SourceLocation& where) {
-    const std::size_t most = most_ranges(joint.kind);
+    const std::size_t most = traits(joint.kind).ranges;
     if (joint.ranges.size() > most) {
       throw ModelError(where, what + " has " + std::to_string(joint.ranges.size()) + " ranges",
                        most == 0   ? "none for this kind of joint"

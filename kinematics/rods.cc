@@ -11,25 +11,18 @@ const GiNaC::numeric kHalf(1, 2);
 
 }  // namespace
 
-Rods::Rods(const Robot& robot, const Bodies& bodies, const PlaneLoops& loops, Algebra& algebra, Draft& draft,
-           Positions& positions)
-    : robot_(robot),
-      bodies_(bodies),
-      algebra_(algebra),
-      draft_(draft),
-      positions_(positions),
-      other_(bodies.joints.size()),
-      said_(bodies.joints.size(), false) {
+Rods::Rods(const Drafter& drafter, const PlaneLoops& loops, Positions& positions)
+    : Drafter(drafter), positions_(positions), other_(bodies_.joints.size()), said_(bodies_.joints.size(), false) {
   std::vector<std::size_t> held;  // joints that are looked at in one position
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> between;  // two bodies
-  for (std::size_t j = 0; j < bodies.joints.size(); ++j) {
-    const auto& [index, kind, ends] = bodies.joints[j];
+  for (std::size_t j = 0; j < bodies_.joints.size(); ++j) {
+    const auto& [index, kind, ends] = bodies_.joints[j];
     if (moves_one_way(kind) && is_held(joint(j))) held.push_back(j);
     if (is_rod(kind) && !loops.has(j)) between[std::minmax(ends[0].body, ends[1].body)].push_back(j);
   }
   std::set<std::size_t> at_rest{0};
-  walk(bodies, held, 0, [&](std::size_t, const BodyEnd&, const BodyEnd& far) { return at_rest.insert(far.body).second; });
-  const auto is_fixed = [&](std::size_t j) { return bodies.joints[j].kind == JointKind::distance; };
+  walk(bodies_, held, 0, [&](std::size_t, const BodyEnd&, const BodyEnd& far) { return at_rest.insert(far.body).second; });
+  const auto is_fixed = [&](std::size_t j) { return bodies_.joints[j].kind == JointKind::distance; };
   for (const auto& [two, rods] : between)
     if (rods.size() == 2 && std::ranges::all_of(rods, is_fixed) && !at_rest.contains(two.first) &&
         !at_rest.contains(two.second)) {
@@ -43,17 +36,15 @@ bool Rods::has_two() const {
 }
 
 bool Rods::is_held(const Joint& of) const {
-  if (of.ranges.empty() || !of.ranges[0]) return false;
+  if (!of.range()) return false;
   const auto value = [&](const Expression& e) { return algebra_.value(algebra_.constant(e, of.where)); };
   return value(of.ranges[0]->lower) == value(of.ranges[0]->upper);
 }
 
 ex Rods::length(const BodyJoint& rod) {
-  const Joint& of = robot_.joints[rod.index];
+  const Joint& of = joint(rod);
   if (rod.kind == JointKind::distance) return algebra_.constant(of.length, of.where);
-  positions_.coordinate[rod.index] = draft_.length(of.name, of.ranges.empty() ? std::nullopt : of.ranges[0], of.where);
-  draft_.limit_last();
-  return *positions_.coordinate[rod.index];
+  return *(positions_.coordinates[rod.index] = draft_.joint_way(rod.index, of.name).value());
 }
 
 Rods::Leg Rods::leg_of(std::size_t joint) {
@@ -80,7 +71,7 @@ std::optional<Range> Rods::range(const Leg& leg) const {
   const Expression wider("11/10");
   const Joint& of = joint(leg.first);
   if (bodies_.joints[leg.first].kind != JointKind::distance) {
-    if (of.ranges.empty() || !of.ranges[0]) return std::nullopt;
+    if (!of.range()) return std::nullopt;
     return Range{-(wider * of.ranges[0]->upper), wider * of.ranges[0]->upper};
   }
   const Expression longest = wider * (leg.second ? (of.length + joint(*leg.second).length) / 2 : of.length);
@@ -123,7 +114,7 @@ Vec Rods::hang(const TreeEdge& edge) {
 // |p + R b − a|² = |p|² + |b|² + |a|² + 2 p·R b − 2 p·a − 2 a·R b, where |p|² is known and q = Rᵀp are coordinates: so the
 // difference of two legs' equations is linear in them.
 ex Rods::squared_distance(Hung& hung, const Vec& b, const Vec& a) {
-  const std::size_t g = bodies_.group[hung.leg.ends[hung.far].body];
+  const std::size_t g = group(hung.leg.ends[hung.far].body);
   const Vec c = positions_.frames.coefficients(g, b);
   ex along = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -152,6 +143,7 @@ void Rods::close(std::size_t j) {
   const Joint& of = joint(j);
   const std::string what = "the rod '" + of.name + "'";
   const Leg leg = leg_of(j);
+  // Whatever the rod: where its ends are may make coordinates, and these come first.
   const Vec p = algebra_.clean(positions_.place(leg.ends[1]) - positions_.place(leg.ends[0]));
   keep_in_plane(leg, p);
   if (leg.second) {

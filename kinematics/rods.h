@@ -15,14 +15,13 @@
 #include <optional>
 #include <vector>
 
-#include "corank/kinematics/positions.h"
+#include "corank/kinematics/frames.h"
 
 namespace corank::kinematics {
 
-class Rods {
+class Rods : Drafter {
  public:
-  Rods(const Robot& robot, const Bodies& bodies, const PlaneLoops& loops, Algebra& algebra, Draft& draft,
-       Positions& positions);
+  Rods(const Drafter& drafter, const PlaneLoops& loops, Positions& positions);
 
   /// A rod's length; declares the coordinate of one that varies.
   ex length(const BodyJoint& rod);
@@ -52,7 +51,6 @@ class Rods {
     std::array<std::optional<ex>, 3> seen{};  ///< p along the body's directions, once they were needed
   };
 
-  const Joint& joint(std::size_t j) const { return robot_.joints[bodies_.joints[j].index]; }
   /// Has the joint, which moves one way, a range of one value?
   bool is_held(const Joint& of) const;
   Leg leg_of(std::size_t joint);
@@ -66,10 +64,6 @@ class Rods {
   void keep_in_plane(const Leg& leg, const Vec& p);
   bool depends_on(const Vec& a, const Hung& hung) const;
 
-  const Robot& robot_;
-  const Bodies& bodies_;
-  Algebra& algebra_;
-  Draft& draft_;
   Positions& positions_;
   std::vector<std::optional<std::size_t>> other_;  // of each joint in bodies_: the rod that it is taken together with
   std::vector<bool> said_;                         // of each joint in bodies_: with the other's equations

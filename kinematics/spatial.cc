@@ -22,31 +22,28 @@ bool same_points(const Bodies& a, const Bodies& b) {
   return true;
 }
 
-class SpatialRobot {
+class SpatialRobot : public Drafter {
  public:
-  SpatialRobot(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft, bool deep)
-      : robot_(robot),
-        given_(bodies),
-        bodies_(about_centres(robot, bodies, algebra)),
-        algebra_(algebra),
-        draft_(draft),
+  /// `given`: joints where the robot has them, for pictures; else about the centres of spherical loops.
+  SpatialRobot(const Drafter& drafter, const Bodies& given, bool deep)
+      : Drafter(drafter),
+        given_(given),
         deep_(deep),
-        loops_(bodies_, algebra),
-        frames_(robot, bodies_, loops_, algebra, draft),
-        positions_{bodies_, algebra, frames_},
-        rods_(robot, bodies_, loops_, algebra, draft, positions_) {
-    positions_.origins.resize(bodies.size());
+        loops_(bodies_, algebra_),
+        frames_(*this, loops_),
+        positions_{bodies_, algebra_, frames_},
+        rods_(*this, loops_, positions_) {
+    positions_.origins.resize(bodies_.size());
     positions_.origins[0] = Vec{0, 0, 0};
-    positions_.coordinate.resize(robot.joints.size());
+    positions_.coordinates.resize(robot_.joints.size());
   }
 
   void run() {
     std::vector<int> order;
     for (std::size_t j = 0; j < bodies_.joints.size(); ++j) {
-      const BodyJoint& joint = bodies_.joints[j];
-      const bool early =
-          keeps_orientation(joint.kind) || (joint.kind == JointKind::revolute && frames_.is_asked_for(joint.index));
-      order.push_back(is_rod(joint.kind) ? 0 : loops_.has(j) ? (early ? 1 : 2) : early ? 3 : 0);
+      const auto& [index, kind, ends] = bodies_.joints[j];
+      const bool early = keeps_orientation(kind) || (kind == JointKind::revolute && robot_.is_asked_for(index));
+      order.push_back(is_rod(kind) ? 0 : loops_.has(j) ? (early ? 1 : 2) : early ? 3 : 0);
     }
     tree_ = spanning_tree(robot_, bodies_, algebra_, order, deep_);
     keep_orientations();
@@ -59,49 +56,51 @@ class SpatialRobot {
     for (const BodyJoint& j : bodies_.joints) frames_.limit(j);
     bool moves = false;
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
-      if (!positions_.coordinate[j] && frames_.angle(j)) positions_.coordinate[j] = frames_.angle(j);
+      if (!positions_.coordinates[j] && frames_.angle(j)) positions_.coordinates[j] = frames_.angle(j);
       if (!robot_.joints[j].actuated) continue;
       moves = true;
-      if (positions_.coordinate[j]) draft_.input(draft_.symbol_of(j, *positions_.coordinate[j]));
+      if (positions_.coordinates[j]) draft_.input(draft_.symbol_of(j, *positions_.coordinates[j]));
     }
     for (const Output& output : robot_.outputs) add(output);
     std::optional<Twists> twists;
     if (rods_.has_two() && all_are_coordinates()) {
       if (draft_.has_branches()) draft_.velocity_of_equations();
     } else if (moves || !robot_.outputs.empty()) {
-      twists.emplace(robot_, bodies_, tree_, frames_, loops_, positions_, algebra_, draft_, is_spherical());
+      twists.emplace(*this, tree_, frames_, loops_, positions_, is_spherical());
       twists->run();
     }
     frames_.finish();
     const bool on_a_sphere = is_spherical() && same_points(given_, bodies_);
-    draw(robot_, given_, algebra_, draft_, on_a_sphere ? Space::spherical : Space::spatial,
+    draw({robot_, given_, algebra_, draft_}, on_a_sphere ? Space::spherical : Space::spatial,
          [&](std::size_t body, const Vec& point) -> Motion {
            const Vec at = place({body, point, {}, {}});
            return {at, twists ? std::optional(twists->velocity(body, at)) : std::nullopt};
          });
-    report();
+    report(
+        positions_.coordinates, [&](std::size_t body, const Vec& v) { return positions_.image(body, v); },
+        [&](std::size_t body, const Vec& point) {
+          return place({body, point, {}, {}});
+        },
+        [&](const BodyJoint& j) {
+          const BodyEnd &a = j.ends[0], &b = j.ends[1];
+          const Vec zero = positions_.image(b.body, b.zero);
+          return std::pair(dot(zero, positions_.image(a.body, a.zero)),
+                           dot(zero, positions_.image(a.body, cross(a.axis, a.zero))));
+        });
   }
 
   bool is_spherical() const {
-    return !translates_ && !tree_.chords.empty() &&
-           std::all_of(bodies_.joints.begin(), bodies_.joints.end(), [](const BodyJoint& j) {
-             return j.kind == JointKind::revolute || j.kind == JointKind::universal || j.kind == JointKind::spherical;
-           });
+    return !translates_ && !tree_.chords.empty() && std::ranges::all_of(bodies_.joints, turns_about_point, &BodyJoint::kind);
   }
 
  private:
-  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
-  std::optional<Range> range(const BodyJoint& j, std::size_t i = 0) const {
-    return joint(j).ranges.size() > i ? joint(j).ranges[i] : std::nullopt;
-  }
-  std::size_t group(std::size_t body) const { return bodies_.group[body]; }
   Vec place(const BodyEnd& end) const { return positions_.place(end); }
 
   /// Inputs and outputs: then Φ's own derivative says all.
   bool all_are_coordinates() const {
     const auto has_coordinate = [&](std::size_t j) {
       const JointKind kind = robot_.joints[j].kind;
-      return (moves_one_way(kind) || is_extensible(kind)) && positions_.coordinate[j];
+      return (moves_one_way(kind) || is_extensible(kind)) && positions_.coordinates[j];
     };
     const auto is_input = [&](std::size_t j) { return !robot_.joints[j].actuated || has_coordinate(j); };
     const auto is_output = [&](const Output& output) {
@@ -146,18 +145,18 @@ class SpatialRobot {
       case JointKind::prismatic:
       case JointKind::cylindrical: {
         const ex d = draft_.joint_way(j.index, j.kind == JointKind::prismatic ? of.name : of.name + "_way").value();
-        positions_.coordinate[j.index] = d;
-        return d * frames_.image(group(e.body), e.axis);
+        positions_.coordinates[j.index] = d;
+        return d * positions_.image(e.body, e.axis);
       }
       case JointKind::parallelogram: {
         const auto [c, s] = frames_.own_angle(j.index);
         const ex radius = algebra_.constant(of.length, of.where);
-        return (radius * c) * frames_.image(group(e.body), e.zero) +
-               (radius * s) * frames_.image(group(e.body), cross(e.axis, e.zero));
+        return (radius * c) * positions_.image(e.body, e.zero) +
+               (radius * s) * positions_.image(e.body, cross(e.axis, e.zero));
       }
       case JointKind::planar:
-        return draft_.length(of.name + "_x", {}, of.where) * frames_.image(group(e.body), e.zero) +
-               draft_.length(of.name + "_y", {}, of.where) * frames_.image(group(e.body), cross(e.axis, e.zero));
+        return draft_.length(of.name + "_x", {}, of.where) * positions_.image(e.body, e.zero) +
+               draft_.length(of.name + "_y", {}, of.where) * positions_.image(e.body, cross(e.axis, e.zero));
       default: return {0, 0, 0};
     }
   }
@@ -171,27 +170,16 @@ class SpatialRobot {
     } else {
       at = edge.from == 0 ? at + way(j) : at - way(j);
     }
-    positions_.origins[child.body] = algebra_.clean(at - frames_.image(group(child.body), child.point));
+    positions_.origins[child.body] = algebra_.clean(at - positions_.image(child.body, child.point));
   }
 
   // In the plane of loops with parallel axes, from the body that carries them.
-  PlanePoint plane_place(const PlanePart& part, const BodyEnd& end) const {
-    return plus(part.origins.at(end.body), part.image(group(end.body), end.point, algebra_));
-  }
   PlanePoint plane_way(const PlanePart& part, const BodyJoint& j) const {
-    PlanePoint way;
-    const std::size_t g = group(j.ends[0].body);
-    if (j.kind == JointKind::prismatic) {
-      const ex& d = *positions_.coordinate[j.index];
-      const Complex along = part.in_plane(g, j.ends[0].axis, algebra_);
-      way.add(part.turns.at(g), {d * along.re, d * along.im});
-    } else if (j.kind == JointKind::parallelogram) {
-      const ex radius = algebra_.constant(joint(j).length, joint(j).where);
-      const Complex zero = part.in_plane(g, j.ends[0].zero, algebra_);
-      way.add(part.turns.at(g) * Turn{{1, 0}, part.sense(bodies_, j, algebra_) * *frames_.angle(j.index)},
-              {radius * zero.re, radius * zero.im});
-    }
-    return way;
+    const BodyEnd& e = j.ends[0];
+    if (j.kind == JointKind::prismatic) return part.way(e.body, e.axis, *positions_.coordinates[j.index]);
+    if (j.kind != JointKind::parallelogram) return {};
+    return part.way(e.body, e.zero, algebra_.constant(joint(j).length, joint(j).where),
+                    {{1, 0}, part.sense(j) * *frames_.angle(j.index)});
   }
 
   void place_in_plane(const TreeEdge& edge) {
@@ -200,25 +188,20 @@ class SpatialRobot {
     part->origins.try_emplace(*part->root);
     const BodyJoint& j = bodies_.joints[edge.joint];
     const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
-    if (!part->bodies.contains(parent.body) || !part->bodies.contains(child.body)) return;
-    const PlanePoint at = plus(plane_place(*part, parent), plane_way(*part, j), edge.from == 0 ? 1 : -1);
-    part->origins[child.body] = plus(at, part->image(group(child.body), child.point, algebra_), -1);
+    if (!part->reached.contains(parent.body) || !part->reached.contains(child.body)) return;
+    const PlanePoint at = plus(part->place(parent), plane_way(*part, j), edge.from == 0 ? 1 : -1);
+    part->origins[child.body] = part->origin(at, child);
   }
 
   bool close_in_plane(std::size_t index) {
-    PlanePart* const part = loops_.closing(bodies_, index);
+    PlanePart* const part = loops_.closing(index);
     if (part == nullptr) return false;
     const BodyJoint& j = bodies_.joints[index];
     const Joint& of = joint(j);
-    const PlanePoint gap = plus(plane_place(*part, j.ends[1]), plane_place(*part, j.ends[0]), -1);
-    const BranchFinder::Image seen = [&](std::size_t body, const Vec& way) -> std::optional<Turn> {
-      const auto turn = part->turns.find(group(body));
-      if (turn == part->turns.end()) return std::nullopt;
-      return turn->second * Turn{part->in_plane(group(body), way, algebra_)};
-    };
+    const PlanePoint gap = plus(part->place(j.ends[1]), part->place(j.ends[0]), -1);
     if (is_rod(j.kind)) {
       const ex length = rods_.length(j), square = gap.squared();
-      const auto branches = j.kind == JointKind::distance ? draft_.branches().of_rod(index, gap, seen) : std::nullopt;
+      const auto branches = j.kind == JointKind::distance ? draft_.branches().of_rod(index, gap, *part) : std::nullopt;
       draft_.closing({square - length * length}, branches, "rod", of.where, "the rod '" + of.name + "'");
       part->closings[index] = {square / 2};
       return true;
@@ -228,7 +211,7 @@ class SpatialRobot {
     const std::string what = "the loop that the joint '" + of.name + "' closes";
     draft_.equation(open.height, "height", of.where, what + " leaves its plane and");
     part->closings[index] = {open.x(), open.y()};
-    if (draft_.closing({open.x(), open.y()}, draft_.branches().of_loop(open, seen), "loop", of.where, what))
+    if (draft_.closing(part->closings[index], draft_.branches().of_loop(open, *part), "loop", of.where, what))
       translates_ = true;
     return true;
   }
@@ -238,14 +221,14 @@ class SpatialRobot {
     const std::string what = "the loop that the joint '" + of.name + "' closes";
     const Vec gap = place(j.ends[1]) - place(j.ends[0]);
     if (j.kind == JointKind::planar) {
-      draft_.equation(dot(gap, frames_.image(group(j.ends[0].body), j.ends[0].axis)), "plane", of.where, what);
+      draft_.equation(dot(gap, positions_.image(j.ends[0].body, j.ends[0].axis)), "plane", of.where, what);
       return;
     }
     const Vec open = algebra_.clean(gap - way(j));
     Vec components = open;
     if (const auto along = closing_directions(open)) {
       components = {dot(open, (*along)[0]), dot(open, (*along)[1]), dot(open, (*along)[2])};
-      positions_.closing.emplace(static_cast<std::size_t>(&j - bodies_.joints.data()), *along);
+      positions_.closing.emplace(number(j), *along);
     }
     for (const ex& component : components)
       if (draft_.equation(component, "loop", of.where, what)) translates_ = true;
@@ -268,74 +251,25 @@ class SpatialRobot {
     return std::nullopt;
   }
 
-  /// Poses of links and values of joints, for whoever wants to know them of a solution.
-  void report() {
-    for (std::size_t l = 0; l < robot_.links.size(); ++l) {
-      const std::size_t body = bodies_.of_link[l];
-      const Placement& at = bodies_.placement[l];
-      const Mat columns = transpose(at.rotation);
-      Mat axes;
-      for (std::size_t i = 0; i < 3; ++i) axes[i] = frames_.image(group(body), columns[i]);
-      draft_.pose({place({body, at.translation, {}, {}}), transpose(axes)});
-    }
-    for (const BodyJoint& j : bodies_.joints) {
-      if (positions_.coordinate[j.index]) {
-        draft_.joint_value(joint(j).name, *positions_.coordinate[j.index]);
-      } else if (j.kind == JointKind::revolute) {
-        const BodyEnd &a = j.ends[0], &b = j.ends[1];
-        const Vec zero = frames_.image(group(b.body), b.zero);
-        draft_.joint_value(joint(j).name, dot(zero, frames_.image(group(a.body), a.zero)),
-                           dot(zero, frames_.image(group(a.body), cross(a.axis, a.zero))));
-      }
-    }
-  }
-
   void add(const Output& output) {
-    const bool place_wanted = output.kind == Output::Kind::position || output.kind == Output::Kind::pose;
-    if (output.kind == Output::Kind::joint) {
-      if (!positions_.coordinate[output.joint])
-        throw ModelError(output.where, "the joint '" + robot_.joints[output.joint].name + "' has no coordinate",
-                         "a revolute or prismatic joint, or a rod of variable length");
-      draft_.output(draft_.symbol_of(output.joint, *positions_.coordinate[output.joint]));
-      return;
-    }
+    if (output.kind == Output::Kind::joint) return draft_.output_of_joint(output, positions_.coordinates[output.joint]);
     if (bodies_.of_link[output.relative_to] != 0)
       throw ModelError(output.where,
                        "the output '" + output.name + "' is relative to '" + robot_.links[output.relative_to].name + "'",
                        "for a robot in space: relative to the ground '" + robot_.links[0].name + "'");
-    if (place_wanted) add_components(output, point_of(output));
-    if (output.kind == Output::Kind::direction) {
-      const Placement& at = bodies_.placement[output.link];
-      add_components(
-          output, frames_.image(group(bodies_.of_link[output.link]),
-                                algebra_.clean(algebra_.unit(at.rotation * algebra_.vector(output.point, output.where)))));
-    }
-  }
-
-  Vec point_of(const Output& output) {
     const Placement& at = bodies_.placement[output.link];
     const std::size_t body = bodies_.of_link[output.link];
-    const Vec local = algebra_.clean(at.translation + at.rotation * algebra_.vector(output.point, output.where));
-    const Vec p = place({body, local, {}, {}});
-    positions_.output_points.emplace(output.name, p);
-    return p;
-  }
-
-  void add_components(const Output& output, const Vec& value) {
-    const std::array<bool, 3> moves = draft_.moving(output, value);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!moves[i]) continue;
-      const ex coordinate = draft_.length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
-      draft_.equation(coordinate - value[i], "output", output.where);
-      draft_.output(coordinate);
+    const Vec turned = at.rotation * algebra_.vector(output.point, output.where);
+    if (output.kind == Output::Kind::position || output.kind == Output::Kind::pose) {
+      const Vec p = place({body, algebra_.clean(at.translation + turned), {}, {}});
+      positions_.output_points.emplace(output.name, p);
+      draft_.output_components(output, p);
+    } else if (output.kind == Output::Kind::direction) {
+      draft_.output_components(output, positions_.image(body, algebra_.clean(algebra_.unit(turned))));
     }
   }
 
-  const Robot& robot_;
-  const Bodies& given_;  // joints where the robot has them, for pictures
-  const Bodies bodies_;  // joints about the centres of spherical loops
-  Algebra& algebra_;
-  Draft& draft_;
+  const Bodies& given_;
   const bool deep_;
   PlaneLoops loops_;
   Frames frames_;
@@ -348,7 +282,8 @@ class SpatialRobot {
 }  // namespace
 
 bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft, bool deep) {
-  SpatialRobot spatial(robot, bodies, algebra, draft, deep);
+  const Bodies moved = about_centres(robot, bodies, algebra);
+  SpatialRobot spatial({robot, moved, algebra, draft}, bodies, deep);
   spatial.run();
   return spatial.is_spherical();
 }

@@ -60,7 +60,7 @@ Role Twists::role(std::size_t index) const {
       return Role::output;
   return Role::passive;
 }
-bool Twists::has_rate(std::size_t index) const { return role(index) != Role::passive || draft_.is_coupled(index); }
+bool Twists::has_rate(std::size_t index) const { return role(index) != Role::passive || robot_.is_coupled(index); }
 ex Twists::angular(const BodyJoint& j, const std::string& suffix) {
   if (suffix.empty()) return draft_.joint_rate(j.index, "w_", CoordinateKind::angle, role(j.index));
   return draft_.rate("w_" + joint(j).name + suffix, CoordinateKind::angle, role(j.index), joint(j).where);
@@ -106,7 +106,7 @@ std::vector<Screw> Twists::screws(const BodyJoint& j) {
       break;
     default: break;
   }
-  if (list.size() == 1) rate_of_[static_cast<std::size_t>(&j - bodies_.joints.data())] = list[0].rate;
+  if (list.size() == 1) rate_of_[number(j)] = list[0].rate;
   return list;
 }
 
@@ -141,7 +141,7 @@ void Twists::reach(const TreeEdge& edge) {
     if (dyad.link == child) return;
   if (is_rod(j.kind)) {  // six rates, of the body that hangs on it
     const Vec at = place(j.ends[1 - edge.from]);
-    const std::string name = robot_.links[link_of(child)].name;
+    const std::string& name = name_of(child);
     for (std::size_t i = 0; i < 3; ++i)
       motion_[child].push_back(
           {draft_.rate("w_" + name + "_" + "xyz"[i], CoordinateKind::angle, Role::passive, joint(j).where), unit(i), at,
@@ -174,11 +174,6 @@ void Twists::turn_within(const Dyad& dyad) {
   motion_[dyad.link].push_back({algebra_.clean(rate), a, place(j.ends[dyad.inner.from]), true});
 }
 
-std::size_t Twists::link_of(std::size_t body) const {
-  for (std::size_t l = 0; l < robot_.links.size(); ++l)
-    if (bodies_.of_link[l] == body) return l;
-  return 0;
-}
 void Twists::add_velocity(Vec& sum, const std::vector<Screw>& screws, const Vec& c, int sign) const {
   for (const Screw& s : screws)
     sum = sum + (sign * s.rate) * (s.turns ? cross(s.axis, algebra_.clean(c - s.point)) : s.axis);
@@ -200,7 +195,7 @@ void Twists::rows(const Vec& v, const Joint& of) {
 }
 
 void Twists::closing_rows(const Vec& v, const BodyJoint& j) {
-  const auto closing = positions_.closing.find(static_cast<std::size_t>(&j - bodies_.joints.data()));
+  const auto closing = positions_.closing.find(number(j));
   if (closing == positions_.closing.end()) return rows(v, joint(j));
   for (const Vec& direction : closing->second) row(dot(v, direction), joint(j));
 }
@@ -219,8 +214,7 @@ ex Twists::turning_in_plane(const PlanePart& part, std::size_t of) const {
   return sum;
 }
 ex Twists::relative_turning(const PlanePart& part, const BodyJoint& j) const {
-  return part.sense(bodies_, j, algebra_) *
-         (turning_in_plane(part, group(j.ends[1].body)) - turning_in_plane(part, group(j.ends[0].body)));
+  return part.sense(j) * (turning_in_plane(part, group(j.ends[1].body)) - turning_in_plane(part, group(j.ends[0].body)));
 }
 
 /// The loop's two equations along a motion: of each coordinate in them the rate is a sum of joints' rates.
@@ -234,30 +228,27 @@ void Twists::close_in_plane(const BodyJoint& j, const PlanePart& part, const std
   for (const auto& [g, angle] : part.angles) rates.emplace(angle, turning_in_plane(part, g));
   for (const auto& [joint_index, rate] : rate_of_) {
     const std::size_t index = bodies_.joints[joint_index].index;
-    if (loops_.of(joint_index) == &part && positions_.coordinate[index])
-      rates.emplace(draft_.symbol_of(index, *positions_.coordinate[index]), draft_.rate_of_symbol(index, rate));
+    if (loops_.of(joint_index) == &part && positions_.coordinates[index])
+      rates.emplace(draft_.symbol_of(index, *positions_.coordinates[index]), draft_.rate_of_symbol(index, rate));
   }
   for (const ex& open : closing) {
     ex sum = 0;
     for (const auto& [coordinate, rate] : rates) sum += open.diff(GiNaC::ex_to<GiNaC::symbol>(coordinate)) * rate;
-    if (j.kind == JointKind::distance_variable) sum -= *positions_.coordinate[j.index] * linear(j);
+    if (j.kind == JointKind::distance_variable) sum -= *positions_.coordinates[j.index] * linear(j);
     row(sum, of);
   }
 }
 
 void Twists::close(const BodyJoint& j) {
   const Joint& of = joint(j);
-  const std::size_t number = static_cast<std::size_t>(&j - bodies_.joints.data());
-  if (const PlanePart* part = loops_.of(number); part != nullptr && part->closings.contains(number)) {
-    close_in_plane(j, *part, part->closings.at(number));
-    return;
-  }
+  if (const PlanePart* part = loops_.of(number(j)); part != nullptr && part->closings.contains(number(j)))
+    return close_in_plane(j, *part, part->closings.at(number(j)));
   const std::size_t b0 = j.ends[0].body, b1 = j.ends[1].body;
   if (is_rod(j.kind)) {
     const Vec p0 = place(j.ends[0]), p1 = place(j.ends[1]);
     const Vec way = algebra_.clean(p1 - p0);
     ex work = dot(way, velocity(b1, p1) - velocity(b0, p0));
-    if (is_extensible(j.kind)) work -= *positions_.coordinate[j.index] * linear(j);
+    if (is_extensible(j.kind)) work -= *positions_.coordinates[j.index] * linear(j);
     row(work, of);
     if (j.kind == JointKind::universal_rod) {
       // det(a, p, b) = 0 along a motion, where a turns with one body, b with the other, and p goes from one to the other.

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "corank/kinematics/dyads.h"
-#include "corank/kinematics/positions.h"
+#include "corank/kinematics/frames.h"
 
 namespace corank::kinematics {
 
@@ -29,20 +29,17 @@ struct Screw {
   bool turns = true;
 };
 
-class Twists {
+class Twists : Drafter {
  public:
-  Twists(const Robot& robot, const Bodies& bodies, const SpanningTree& tree, Frames& frames, PlaneLoops& loops,
-         const Positions& positions, Algebra& algebra, Draft& draft, bool spherical)
-      : robot_(robot),
-        bodies_(bodies),
+  Twists(const Drafter& drafter, const SpanningTree& tree, Frames& frames, PlaneLoops& loops, const Positions& positions,
+         bool spherical)
+      : Drafter(drafter),
         tree_(tree),
         frames_(frames),
         loops_(loops),
         positions_(positions),
-        algebra_(algebra),
-        draft_(draft),
         spherical_(spherical),
-        motion_(bodies.size()) {}
+        motion_(bodies_.size()) {}
 
   /// Declares the rates and adds the rows.
   void run();
@@ -50,8 +47,6 @@ class Twists {
   Vec velocity(std::size_t body, const Vec& c) const;
 
  private:
-  const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
-  std::size_t group(std::size_t body) const { return bodies_.group[body]; }
   Vec place(const BodyEnd& end) const { return positions_.place(end); }
   Vec axis(const BodyJoint& j, std::size_t end);
   Vec own_axis(std::size_t joint, std::size_t body) const;
@@ -61,7 +56,6 @@ class Twists {
   bool has_rate(std::size_t joint) const;
   ex angular(const BodyJoint& j, const std::string& suffix = "");
   ex linear(const BodyJoint& j, const std::string& suffix = "");
-  std::size_t link_of(std::size_t body) const;
   /// The screws of a joint, as motions of end 1's body relative to end 0's.
   std::vector<Screw> screws(const BodyJoint& j);
   /// By whose rates the body turns that a tree's edge reaches: an output's, or nothing.
@@ -86,14 +80,10 @@ class Twists {
   void close(const Dyad& dyad);
   void add(const Output& output);
 
-  const Robot& robot_;
-  const Bodies& bodies_;
   const SpanningTree& tree_;
   Frames& frames_;
   PlaneLoops& loops_;
   const Positions& positions_;
-  Algebra& algebra_;
-  Draft& draft_;
   bool spherical_;
   std::vector<Dyad> dyads_;
   std::vector<std::vector<Screw>> motion_;  // of each body, relative to the ground

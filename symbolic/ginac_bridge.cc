@@ -194,11 +194,7 @@ std::vector<GinacBridge::Factor> GinacBridge::factors(const ex& term, numeric& c
     }
     result.push_back({rank(base), base, exponent});
   };
-  if (is_a<GiNaC::mul>(term)) {
-    for (const ex& f : term) add(f);
-  } else {
-    add(term);
-  }
+  for (const ex& f : parts_of<GiNaC::mul>(term)) add(f);
   std::stable_sort(result.begin(), result.end(), [](const Factor& a, const Factor& b) { return a.order < b.order; });
   return result;
 }

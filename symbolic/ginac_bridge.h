@@ -21,6 +21,11 @@ namespace corank::symbolic {
 
 /// As GiNaC prints it.
 std::string text_of(const GiNaC::ex& e);
+/// The terms of a sum, or the factors of a product; anything else is the one of its own.
+template <typename Kind>
+GiNaC::exvector parts_of(const GiNaC::ex& e) {
+  return GiNaC::is_a<Kind>(e) ? GiNaC::exvector(e.begin(), e.end()) : GiNaC::exvector{e};
+}
 /// log2 of the largest numerator or denominator in an expression, an upper bound.
 double numeric_bits(const GiNaC::ex& e);
 /// Raises only where the numbers of the result stay below about 10^5 bits; throws std::domain_error otherwise.

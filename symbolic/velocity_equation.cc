@@ -72,14 +72,8 @@ GiNaC::ex derivative(const GiNaC::ex& term, const GiNaC::symbol& by) {
 // The terms in which each symbol occurs, so that no derivative looks at the others.
 std::map<std::string, GiNaC::exvector> terms_by_symbol(const GinacBridge& bridge, const GiNaC::ex& e) {
   std::map<std::string, GiNaC::exvector> terms;
-  const auto add = [&](const GiNaC::ex& term) {
+  for (const GiNaC::ex& term : parts_of<GiNaC::add>(e))
     for (const std::string& name : bridge.names_in(term)) terms[name].push_back(term);
-  };
-  if (GiNaC::is_a<GiNaC::add>(e)) {
-    for (const GiNaC::ex& term : e) add(term);
-  } else {
-    add(e);
-  }
   return terms;
 }
 
