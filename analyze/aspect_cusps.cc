@@ -10,7 +10,7 @@
 #include "corank/result/sentences.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/cusp_system.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 #include "corank/symbolic/determinant_factors.h"
 #include "corank/symbolic/kernel_scale.h"
 

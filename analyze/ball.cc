@@ -14,6 +14,7 @@
 #include "corank/symbolic/limits.h"
 #include "corank/symbolic/model_file.h"
 #include "corank/symbolic/model_text.h"
+#include "corank/symbolic/printer.h"
 
 namespace corank::analyze {
 namespace {

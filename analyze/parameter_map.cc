@@ -20,7 +20,6 @@
 #include "corank/solve/reducer.h"
 #include "corank/solve/solve.h"
 #include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/family_system.h"
 
 namespace corank::analyze {
 namespace {

@@ -15,7 +15,6 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/line_breaks.h"
 #include "corank/symbolic/model_error.h"
-#include "corank/symbolic/model_text.h"
 #include "corank/symbolic/parameters.h"
 #include "corank/symbolic/printer.h"
 #include "corank/symbolic/text_file.h"

@@ -6,7 +6,7 @@
 #include "corank/app/shared_options.h"
 #include "corank/result/words.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/regular_locus.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 
 namespace corank::app {
 

@@ -4,8 +4,6 @@
 #include <numbers>
 
 #include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/expression_words.h"
-#include "corank/symbolic/ginac_bridge.h"
 #include "corank/symbolic/polynomial_expander.h"
 
 namespace corank::kinematics {
@@ -13,6 +11,33 @@ namespace corank::kinematics {
 using GiNaC::ex_to;
 using GiNaC::is_a;
 using GiNaC::numeric;
+
+namespace {
+
+// A number, a name, products and sums of two of them.
+bool is_short(const ex& e) {
+  std::size_t leaves = 0;
+  bool plain = true;
+  for (GiNaC::const_preorder_iterator i = e.preorder_begin(); i != e.preorder_end(); ++i) {
+    if (i->nops() == 0) ++leaves;
+    if (is_a<GiNaC::function>(*i) || is_a<GiNaC::power>(*i)) plain = false;
+  }
+  return leaves <= (plain ? 3 : 2);
+}
+
+std::size_t terms(const ex& sum) { return is_a<GiNaC::add>(sum) ? sum.nops() : 1; }
+
+// sin² as 1 − cos².
+struct SquaredSines : GiNaC::map_function {
+  ex operator()(const ex& e) override {
+    const ex inner = e.map(*this);
+    if (!is_a<GiNaC::power>(inner) || !inner.op(1).is_equal(2) || !is_a<GiNaC::function>(inner.op(0))) return inner;
+    const auto function = ex_to<GiNaC::function>(inner.op(0));
+    return function.get_name() == "sin" ? 1 - GiNaC::pow(GiNaC::cos(function.op(0)), 2) : inner;
+  }
+};
+
+}  // namespace
 
 Vec operator+(const Vec& a, const Vec& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vec operator-(const Vec& a, const Vec& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -42,9 +67,7 @@ Mat identity() { return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
 Algebra::Algebra(const Robot& robot) {
   symbolic::PolynomialExpander values;  // words the faults
   for (const symbolic::Constant& constant : robot.constants) {
-    const symbolic::ConstantValue value =
-        values.constant(constant.value, "the constant " + symbolic::in_quotes(constant.name), constant.where);
-    values.add_constant(constant.name, value);
+    const symbolic::ConstantValue& value = values.define(constant);
     add_constant(constant.name, value.exact());
     if (value.sign().value_or(0) != 0) continue;
     zeros_[constants_.at(constant.name)] = 0;
@@ -79,11 +102,8 @@ Vec Algebra::vector(const Vector& v, const SourceLocation& where) const {
 }
 
 ex Algebra::coordinate(const std::string& name) {
-  const GiNaC::realsymbol symbol(name);
-  coordinates_.emplace(name, symbol);
   coordinate_names_.push_back(name);
-  coordinate_symbols_.append(symbol);
-  return symbol;
+  return coordinates_.emplace(name, GiNaC::realsymbol(name)).first->second;
 }
 
 double Algebra::value(const ex& e) const {
@@ -180,21 +200,6 @@ Vec Algebra::perpendicular(const Vec& axis) const {
   return unit(e - dot(axis, e) / dot(axis, axis) * axis);
 }
 
-namespace {
-
-// A number, a name, products and sums of two of them.
-bool is_short(const ex& e) {
-  std::size_t leaves = 0;
-  bool plain = true;
-  for (GiNaC::const_preorder_iterator i = e.preorder_begin(); i != e.preorder_end(); ++i) {
-    if (i->nops() == 0) ++leaves;
-    if (is_a<GiNaC::function>(*i) || is_a<GiNaC::power>(*i)) plain = false;
-  }
-  return leaves <= (plain ? 3 : 2);
-}
-
-}  // namespace
-
 ex Algebra::named(const ex& constant) {
   if (is_short(constant)) return constant;
   for (const int simple : {0, 1, -1}) {
@@ -216,11 +221,9 @@ ex Algebra::named(const ex& constant) {
 }
 
 std::vector<symbolic::Constant> Algebra::named_constants() const {
-  std::vector<ex> values;
-  for (const auto& [name, value] : named_) values.push_back(value);
-  const std::vector<Expression> texts = translated(values);
+  const Translation text(*this);
   std::vector<symbolic::Constant> result;
-  for (std::size_t i = 0; i < named_.size(); ++i) result.push_back({named_[i].first, texts[i], {}});
+  for (const auto& [name, value] : named_) result.push_back({name, text(value), {}});
   return result;
 }
 
@@ -229,22 +232,6 @@ bool Algebra::is_constant(const ex& e) const {
     if (is_a<GiNaC::symbol>(*i) && coordinates_.contains(ex_to<GiNaC::symbol>(*i).get_name())) return false;
   return true;
 }
-
-namespace {
-
-std::size_t terms(const ex& sum) { return is_a<GiNaC::add>(sum) ? sum.nops() : 1; }
-
-// sin² as 1 − cos².
-struct SquaredSines : GiNaC::map_function {
-  ex operator()(const ex& e) override {
-    const ex inner = e.map(*this);
-    if (!is_a<GiNaC::power>(inner) || !inner.op(1).is_equal(2) || !is_a<GiNaC::function>(inner.op(0))) return inner;
-    const auto function = ex_to<GiNaC::function>(inner.op(0));
-    return function.get_name() == "sin" ? 1 - GiNaC::pow(GiNaC::cos(function.op(0)), 2) : inner;
-  }
-};
-
-}  // namespace
 
 ex Algebra::clean(const ex& e) const {
   const ex plain = collected(e);
@@ -273,14 +260,9 @@ ex Algebra::collected(const ex& e) const {
   return GiNaC::add(kept);
 }
 
-std::vector<Expression> Algebra::translated(const std::vector<ex>& list) const {
-  const symbolic::GinacBridge bridge(constant_names_, coordinate_names_);
-  GiNaC::exmap theirs;
-  for (const auto& [name, symbol] : constants_) theirs[symbol] = bridge.symbol(name);
-  for (const auto& [name, symbol] : coordinates_) theirs[symbol] = bridge.symbol(name);
-  std::vector<Expression> result;
-  for (const ex& e : list) result.push_back(bridge.to_expression(e.subs(theirs, GiNaC::subs_options::no_pattern)));
-  return result;
+Algebra::Translation::Translation(const Algebra& algebra) : bridge_(algebra.constant_names_, algebra.coordinate_names_) {
+  for (const auto* symbols : {&algebra.constants_, &algebra.coordinates_})
+    for (const auto& [name, symbol] : *symbols) theirs_[symbol] = bridge_.symbol(name);
 }
 
 }  // namespace corank::kinematics

@@ -16,6 +16,7 @@
 
 #include "corank/core/exact_number.h"
 #include "corank/kinematics/robot.h"
+#include "corank/symbolic/ginac_bridge.h"
 
 namespace corank::kinematics {
 
@@ -81,8 +82,19 @@ class Algebra {
   bool is_constant(const Vec& v) const { return is_constant(v[0]) && is_constant(v[1]) && is_constant(v[2]); }
 
   const std::map<std::string, GiNaC::realsymbol>& constants() const { return constants_; }
-  /// In the model language.
-  std::vector<Expression> translated(const std::vector<ex>& list) const;
+
+  /// Into the model language.
+  class Translation {
+   public:
+    explicit Translation(const Algebra& algebra);
+    Expression operator()(const ex& e) const {
+      return bridge_.to_expression(e.subs(theirs_, GiNaC::subs_options::no_pattern));
+    }
+
+   private:
+    const symbolic::GinacBridge bridge_;
+    GiNaC::exmap theirs_;  // the bridge's symbols, of the algebra's
+  };
 
  private:
   ex collected(const ex& e) const;
@@ -97,7 +109,6 @@ class Algebra {
   GiNaC::exmap zeros_;                        // of constants that are put in
   std::map<std::string, ExactNumber> exact_;  // values of the constants, which share what they are made of
   std::map<std::string, double> plain_;       // the same in doubles
-  GiNaC::lst coordinate_symbols_;
   mutable std::map<ex, int, GiNaC::ex_is_less> signs_;
   mutable std::map<ex, int, GiNaC::ex_is_less> decisions_;  // of which the equations are made
   std::map<ex, ex, GiNaC::ex_is_less> names_of_;            // of constants that were given a name

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "corank/kinematics/legs.h"
+#include "corank/kinematics/drafting.h"
 #include "corank/kinematics/parallelograms.h"
-#include "corank/kinematics/planar.h"
-#include "corank/kinematics/spatial.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/ginac_lock.h"
 #include "corank/symbolic/singularity_system.h"
@@ -121,12 +119,7 @@ Assembly in_positions_or_poses(const Robot& robot) {
 }  // namespace
 
 const char* to_string(Space space) {
-  switch (space) {
-    case Space::planar: return "planar";
-    case Space::spherical: return "spherical";
-    case Space::spatial: return "spatial";
-  }
-  return "?";
+  return space == Space::planar ? "planar" : space == Space::spherical ? "spherical" : "spatial";
 }
 
 Assembly assemble(const Robot& robot) {

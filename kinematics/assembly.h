@@ -46,9 +46,9 @@ struct Assembly {
     bool is_rhombus = false;         ///< 0: a parallelogram, pi: crosswise; of a rhombus pi/2 and pi
   };
   std::vector<WrittenParallelogram> parallelograms;
-  bool has_universal_rods = false;       ///< of one equation and a length each (legs.h)
+  bool has_universal_rods = false;       ///< of one equation and a length each (drafting.h)
   std::size_t links = 0;                 ///< of the robot
-  std::vector<LinkPose> poses;           ///< of every link, except those of legs in one piece (legs.h)
+  std::vector<LinkPose> poses;           ///< of every link, except those of legs in one piece (drafting.h)
   std::vector<JointValue> joint_values;  ///< of every joint that has one value
   /// Where these hold, the robot has these equations for other values of its constants, too. Theorem: whatever was decided
   /// while they were made, was decided by the sign of one of these expressions, so that the same decisions make the same

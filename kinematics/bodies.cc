@@ -283,11 +283,9 @@ std::vector<symbolic::Condition> conditions_of(const Robot& robot, const Bodies&
     for (const ex& across : cross(a, b)) static_cast<void>(algebra.sign(across.expand()));
     static_cast<void>(algebra.sign(dot(a, b).expand()));
   }
-  std::vector<ex> values;
-  const std::vector<std::pair<ex, int>> decisions = algebra.decisions();
-  for (const auto& [value, sign] : decisions) values.push_back(value);
+  const Algebra::Translation text(algebra);
   std::vector<symbolic::Condition> list;
-  for (const Expression& value : algebra.translated(values)) list.push_back({value, decisions[list.size()].second});
+  for (const auto& [value, sign] : algebra.decisions()) list.push_back({text(value), sign});
   return list;
 }
 

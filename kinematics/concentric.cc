@@ -1,5 +1,4 @@
-#include "corank/kinematics/concentric.h"
-
+// Loops that turn about one point.
 #include <algorithm>
 #include <map>
 #include <numeric>

@@ -1,42 +1,55 @@
 // What expressions in a robot's constants are worth, exactly.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "corank/symbolic/mechanism.h"
+#include "corank/symbolic/ginac_lock.h"
+#include "corank/symbolic/model_validator.h"
+#include "corank/symbolic/polynomial_expander.h"
 
 namespace corank::kinematics {
+
+using symbolic::Expression;
+using symbolic::SourceLocation;
 
 /// Every function throws ModelError for a name that is no constant defined before, an absurd power, and what is no real
 /// number; with the expression's place where it has one, else `where`. Messages call the expression `owner`.
 /// A scope holds a GinacLock while it lives, and dies in the thread that made it.
 class ConstantScope {
  public:
-  ConstantScope();
-  explicit ConstantScope(const std::vector<symbolic::Constant>& constants);
-  ~ConstantScope();
-  ConstantScope(ConstantScope&&) noexcept;
-  ConstantScope& operator=(ConstantScope&&) noexcept;
+  explicit ConstantScope(const std::vector<symbolic::Constant>& constants = {}) {
+    for (const symbolic::Constant& constant : constants) define(constant);
+  }
 
   /// Throws also for a name that is taken or reserved.
-  void define(const symbolic::Constant& constant);
-  bool has(const std::string& name) const;
-  std::vector<std::string> names() const;
+  void define(const symbolic::Constant& constant) {
+    constants_.constant(constant.name, constant.value, constant.where);
+    validator_.add_constant(constant);
+    values_.define(constant);
+  }
+  bool has(const std::string& name) const { return constants_.has_constant(name); }
+  std::vector<std::string> names() const { return symbolic::names_of(constants_.constants()); }
 
-  void check(const symbolic::Expression& e, const std::string& owner, const symbolic::SourceLocation& where);
+  symbolic::ConstantValue value(const Expression& e, const std::string& owner, const SourceLocation& where) {
+    validator_.check_value(e, owner, where);
+    return values_.constant(e, owner, where);
+  }
   /// Nothing where enclosures leave it open: it may be 0.
-  std::optional<int> sign(const symbolic::Expression& e, const std::string& owner, const symbolic::SourceLocation& where);
-  /// The integer that the value is recognized as.
-  std::optional<int> integer(const symbolic::Expression& e, const std::string& owner, const symbolic::SourceLocation& where);
+  std::optional<int> sign(const Expression& e, const std::string& owner, const SourceLocation& where) {
+    return value(e, owner, where).sign();
+  }
   /// Close to the value; for drawing.
-  double approximation(const symbolic::Expression& e, const std::string& owner, const symbolic::SourceLocation& where);
+  double approximation(const Expression& e, const std::string& owner, const SourceLocation& where) {
+    return value(e, owner, where).exact().enclose().lo();
+  }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  symbolic::GinacLock lock_;       ///< released after the values, which are GiNaC's
+  symbolic::Mechanism constants_;  ///< which knows what a name may be
+  symbolic::ModelValidator validator_{symbolic::Mechanism()};
+  symbolic::PolynomialExpander values_;
 };
 
 }  // namespace corank::kinematics

@@ -124,8 +124,8 @@ std::optional<Range> Draft::common_range(const Couplings::Train& train) const {
     throw ModelError(driver.where, "the ranges of the joints that follow '" + driver.name + "' leave it no position",
                      "ranges that agree");
   if (driver.kind != JointKind::prismatic && algebra_.sign(*upper - *lower - 2 * GiNaC::Pi) >= 0) return std::nullopt;
-  const std::vector<Expression> ends = algebra_.translated({*lower, *upper});
-  return Range{ends[0], ends[1]};
+  const Algebra::Translation text(algebra_);
+  return Range{text(*lower), text(*upper)};
 }
 
 ex Draft::symbol_of(std::size_t joint, const ex& own) const {
@@ -323,11 +323,12 @@ void Draft::velocity_of_equations() {
   for (const DraftEquation& e : loops_) differentiate(e);
 }
 
-std::string Draft::point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, int dimension) {
+std::string Draft::point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity,
+                         std::size_t dimension) {
   std::string name = wanted;
   const auto taken = [&](const DraftPoint& p) { return p.name == name; };
   for (int k = 2; std::any_of(points_.begin(), points_.end(), taken); ++k) name = wanted + "_" + std::to_string(k);
-  points_.push_back({name, at, velocity, static_cast<std::size_t>(dimension)});
+  points_.push_back({name, at, velocity, dimension});
   return name;
 }
 

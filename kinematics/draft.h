@@ -110,7 +110,7 @@ class Draft {
   void joint_value(const std::string& joint, const ex& value) { values_.push_back({joint, value, {}}); }
   void joint_value(const std::string& joint, const ex& cosine, const ex& sine) { values_.push_back({joint, cosine, sine}); }
   /// Returns the point's name, `wanted` or one like it.
-  std::string point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, int dimension);
+  std::string point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, std::size_t dimension);
   void part(symbolic::DrawingPart::Kind kind, const std::vector<std::string>& points, const Expression& radius = {},
             const std::string& colour = "") {
     symbolic::DrawingPart& part = parts_.emplace_back();

@@ -43,58 +43,31 @@ Assembly Draft::assembly() const {
       i += 2;
       continue;
     }
-    if (c.kind == CoordinateKind::angle) {
-      c.range ? mechanism.angle(c.name, c.range->lower, c.range->upper, c.where)
-              : mechanism.angle(c.name, -symbolic::pi(), symbolic::pi(), c.where);
-    } else {
-      c.range ? mechanism.length(c.name, c.range->lower, c.range->upper, c.where)
-              : mechanism.length_without_range(c.name, c.where);
-    }
-    if (c.auxiliary) mechanism.mark_auxiliary();
+    const bool is_angle = c.kind == CoordinateKind::angle;
+    const Range range = c.range.value_or(is_angle ? Range{-symbolic::pi(), symbolic::pi()} : Range{});
+    mechanism.coordinate({c.name, c.kind, range.lower, range.upper, c.where, c.auxiliary, c.range || is_angle});
     if (c.limit) mechanism.limit(c.name, c.limit->lower, c.limit->upper, c.where);
   }
-  std::vector<ex> all;
-  for (const DraftEquation& e : equations_) all.push_back(e.value);
-  for (const DraftEquation& e : velocity_) all.push_back(e.value);
-  for (const DraftLeftOut& e : left_out_)
-    if (can_be_read(e.equation.value)) all.push_back(e.equation.value);
-  all.insert(all.end(), inputs_.begin(), inputs_.end());
-  all.insert(all.end(), outputs_.begin(), outputs_.end());
-  const auto add = [&](const Vec& v, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) all.push_back(algebra_.clean(v[i]));
+  const Algebra::Translation text(algebra_);
+  const auto texts = [&](const auto& list, std::size_t n) {
+    std::vector<Expression> result;
+    for (std::size_t i = 0; i < n; ++i) result.push_back(text(algebra_.clean(list[i])));
+    return result;
   };
-  for (const DraftPoint& p : points_) {
-    add(p.at, p.dimension);
-    if (p.velocity && !velocity_.empty()) add(*p.velocity, p.dimension);
-  }
-  for (const LinkPose& p : poses_) {
-    add(p.origin, 3);
-    for (const Vec& row : p.axes) add(row, 3);
-  }
-  for (const JointValue& v : values_) {
-    all.push_back(v.value);
-    if (v.sine) all.push_back(algebra_.clean(*v.sine));
-  }
-  const std::vector<Expression> translated = algebra_.translated(all);
-  auto next = translated.begin();
   for (const DraftEquation& e : equations_) {
-    const Expression left = *next++;
+    const Expression left = text(e.value);
     mechanism.constrain(e.inequality ? left >= Expression(0) : left == Expression(0), e.where, e.note);
   }
   // Rates alone say nothing: an open chain without outputs.
   for (const symbolic::Rate& r : velocity_.empty() ? std::vector<symbolic::Rate>{} : rates_)
     mechanism.rate(r.name, r.kind, r.role, r.where);
-  for (const DraftEquation& e : velocity_) mechanism.velocity(*next++ == Expression(0), e.where);
+  for (const DraftEquation& e : velocity_) mechanism.velocity(text(e.value) == Expression(0), e.where);
   Assembly assembly;
   for (const DraftLeftOut& e : left_out_)
-    assembly.left_out.push_back(left_out(e, can_be_read(e.equation.value) ? std::optional(*next++) : std::nullopt));
-  const auto list = [&](std::size_t n) {
-    std::vector<Expression> symbols(next, next + static_cast<std::ptrdiff_t>(n));
-    next += static_cast<std::ptrdiff_t>(n);
-    return symbols;
-  };
-  if (const auto inputs = list(inputs_.size()); !inputs.empty()) mechanism.inputs(inputs);
-  if (const auto outputs = list(outputs_.size()); !outputs.empty()) mechanism.outputs(outputs);
+    assembly.left_out.push_back(
+        left_out(e, can_be_read(e.equation.value) ? std::optional(text(e.equation.value)) : std::nullopt));
+  if (!inputs_.empty()) mechanism.inputs(texts(inputs_, inputs_.size()));
+  if (!outputs_.empty()) mechanism.outputs(texts(outputs_, outputs_.size()));
   for (const symbolic::Constraint& equation : robot_.equations) mechanism.constrain(equation.relation, equation.where);
   symbolic::Drawing drawing;
   drawing.unit = robot_.unit;
@@ -102,23 +75,19 @@ Assembly Draft::assembly() const {
   for (const DraftPoint& p : points_) {
     symbolic::DrawingPoint& point = drawing.points.emplace_back();
     point.name = p.name;
-    point.coordinates = list(p.dimension);
-    if (p.velocity && !velocity_.empty()) point.velocity = list(p.dimension);
+    point.coordinates = texts(p.at, p.dimension);
+    if (p.velocity && !velocity_.empty()) point.velocity = texts(*p.velocity, p.dimension);
   }
   mechanism.drawing(drawing);
+  const auto vector = [&](const Vec& v) {
+    return Vector{text(algebra_.clean(v[0])), text(algebra_.clean(v[1])), text(algebra_.clean(v[2]))};
+  };
   for (std::size_t l = 0; l < poses_.size(); ++l) {
-    Assembly::LinkPose& pose = assembly.poses.emplace_back();
-    pose.link = robot_.links[l].name;
-    const std::vector<Expression> entries = list(12);
-    std::copy_n(entries.begin(), 3, pose.origin.begin());
-    for (std::size_t i = 0; i < 9; ++i) pose.rotation[i / 3][i % 3] = entries[3 + i];
+    const auto& [origin, axes] = poses_[l];
+    assembly.poses.push_back({robot_.links[l].name, vector(origin), {vector(axes[0]), vector(axes[1]), vector(axes[2])}});
   }
-  for (const JointValue& v : values_) {
-    Assembly::JointValue& value = assembly.joint_values.emplace_back();
-    value.joint = v.joint;
-    value.value = *next++;
-    if (v.sine) value.sine = *next++;
-  }
+  for (const auto& [joint, value, sine] : values_)
+    assembly.joint_values.push_back({joint, text(value), sine ? std::optional(text(algebra_.clean(*sine))) : std::nullopt});
   assembly.mechanism = std::move(mechanism);
   for (std::size_t p = 0; p < branches_.parallelograms().size(); ++p) {
     const auto angle = taken_apart_.find(p);

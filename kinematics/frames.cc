@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/symbolic/ginac_bridge.h"
-
 namespace corank::kinematics {
 namespace {
 

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "corank/symbolic/ginac_bridge.h"
-
 namespace corank::kinematics {
 namespace {
 

@@ -1,9 +1,8 @@
-#include "corank/kinematics/legs.h"
-
 #include <algorithm>
 #include <optional>
 
 #include "corank/kinematics/bodies.h"
+#include "corank/kinematics/drafting.h"
 
 namespace corank::kinematics {
 namespace {

@@ -1,7 +1,6 @@
-#include "corank/kinematics/off_file.h"
-
 #include <charconv>
 
+#include "corank/kinematics/part_builder.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/model_file.h"
 
@@ -79,10 +78,9 @@ class Words {
 }  // namespace
 
 OffBody parse_off(std::string_view text, const std::string& file) {
-  if (text.size() > symbolic::kMaxFileBytes) {
+  if (text.size() > symbolic::kMaxFileBytes)
     throw ModelError({file, 0, 0}, "the body has more than " + std::to_string(symbolic::kMaxFileBytes) + " bytes",
                      "a smaller body");
-  }
   Words words(text, file);
   const std::string_view format = words.next("OFF or COFF");
   if (format != "OFF" && format != "COFF") throw ModelError(words.where(), "found " + in_quotes(format), "OFF or COFF");
@@ -99,10 +97,9 @@ OffBody parse_off(std::string_view text, const std::string& file) {
     std::vector<std::size_t>& face = body.faces.emplace_back();
     for (std::size_t k = 0; k < corners; ++k) {
       face.push_back(words.count("the number of a vertex"));
-      if (face.back() >= vertices) {
+      if (face.back() >= vertices)
         throw ModelError(words.where(), "a face names the vertex " + std::to_string(face.back()),
                          "a number below " + std::to_string(vertices));
-      }
     }
     words.end_line();
   }

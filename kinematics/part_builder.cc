@@ -20,19 +20,12 @@ std::string canonical_name(const std::filesystem::path& path) {
   return error ? path.string() : real.string();
 }
 
-std::vector<std::string> names_of(const auto& things) {
-  std::vector<std::string> names;
-  for (const auto& thing : things) names.push_back(thing.name);
-  return names;
-}
-
 }  // namespace
 
 std::string small_letters(std::string_view word) {
   std::string result(word);
-  for (char& c : result) {
+  for (char& c : result)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
   return result;
 }
 
@@ -48,7 +41,7 @@ PartBuilder::PartBuilder(const std::string& file_, std::optional<std::filesystem
 void PartBuilder::go_on_with(const Robot& begun) {
   goes_on_ = true;
   robot = begun;
-  scope = ConstantScope(robot.constants);
+  for (const symbolic::Constant& constant : robot.constants) scope.define(constant);
   link_data_.resize(robot.links.size());
 }
 
@@ -78,10 +71,9 @@ void PartBuilder::push_constant(std::string_view name_read, const SourceLocation
     expressions.symbol(resolved, where);
     return;
   }
-  if (!scope.has(resolved)) {
+  if (!scope.has(resolved))
     throw ModelError(where, "the constant " + in_quotes(name_read) + " is not defined before",
-                     "a constant of [CONSTANTS]" + suggestion(resolved, scope.names()));
-  }
+                     "a constant of [CONSTANTS]" + symbolic::suggestion(resolved, scope.names()));
   expressions.symbol(resolved, where);
 }
 
@@ -99,117 +91,100 @@ void PartBuilder::define_constant() {
   if (constant.name != "deg") robot.constants.push_back(constant);
 }
 
-std::size_t PartBuilder::require_link(const std::string& link, const SourceLocation& where,
-                                      const std::string& expectation) const {
-  const int found = robot.find_link(link);
-  if (found < 0 && goes_on_ && link == "ground") return 0;
-  if (found < 0) {
-    throw ModelError(where, "there is no link " + in_quotes(link), expectation + suggestion(link, names_of(robot.links)));
-  }
+std::size_t PartBuilder::require_link(const ReadName& link, const std::string& expectation) const {
+  const int found = robot.find_link(link.text);
+  if (found < 0 && goes_on_ && link.text == "ground") return 0;
+  if (found < 0)
+    throw ModelError(link.where, "there is no link " + in_quotes(link.text),
+                     expectation + symbolic::suggestion(link.text, symbolic::names_of(robot.links)));
   return found;
 }
 
-std::size_t PartBuilder::require_joint(const std::string& joint, const SourceLocation& where,
-                                       const std::string& expectation) const {
-  const int found = robot.find_joint(joint);
-  if (found < 0) {
-    throw ModelError(where, "there is no joint " + in_quotes(joint),
-                     expectation + suggestion(joint, names_of(robot.joints)));
-  }
+std::size_t PartBuilder::require_joint(const ReadName& joint, const std::string& expectation) const {
+  const int found = robot.find_joint(joint.text);
+  if (found < 0)
+    throw ModelError(joint.where, "there is no joint " + in_quotes(joint.text),
+                     expectation + symbolic::suggestion(joint.text, symbolic::names_of(robot.joints)));
   return found;
 }
 
 void PartBuilder::add_input(std::string_view name_read, const SourceLocation& where) {
   const std::string joint = resolve(name_read);
-  for (const NamedInput& known : named_inputs_) {
-    if (known.joint == joint)
+  for (const ReadName& known : named_inputs_)
+    if (known.text == joint)
       throw ModelError(where, "the joint " + in_quotes(joint) + " is an input already", "each input once");
-  }
   named_inputs_.push_back({joint, where});
 }
 
 void PartBuilder::finish_output_range(const SourceLocation& where) {
   const std::array<const char*, 4> names{"x", "y", "z", "phi"};
-  const std::string of = std::string("the range of ") + names[output_axis] + " of the output " + in_quotes(output.name);
+  const std::string of =
+      std::string("the range of ") + names[output_axis] + " of the output " + in_quotes(output.output.name);
   if (!bracket_has_two) throw ModelError(where, of + " has one number", "[lower, upper]");
   const Expression upper = pop_value(), lower = pop_value();
-  std::optional<Range>& range = output_axis == 3 ? output.turn : output.ranges[output_axis];
+  std::optional<Range>& range = output_axis == 3 ? output.output.turn : output.output.ranges[output_axis];
   if (range) throw ModelError(where, of + " is given twice", "one range for each component");
   range = Range{lower, upper};
 }
 
 void PartBuilder::begin_only(const SourceLocation& where) {
-  if (!output.asked[0] || !output.asked[1] || !output.asked[2])
-    throw ModelError(where, "the output " + in_quotes(output.name) + " says only twice", "all of its components once");
-  output.asked = {};
+  Output& of = output.output;
+  if (!of.asked[0] || !of.asked[1] || !of.asked[2])
+    throw ModelError(where, "the output " + in_quotes(of.name) + " says only twice", "all of its components once");
+  of.asked = {};
 }
 
 void PartBuilder::finish_output() {
-  output.name = resolve(output.name);
+  output.output.name = resolve(output.output.name);
   outputs_.push_back(output);
 }
 
 void PartBuilder::resolve_outputs() {
   for (const OutputDraft& read : outputs_) {
-    Output result;
-    result.name = read.name;
-    result.where = read.where;
+    Output& result = robot.outputs.emplace_back(read.output);
     if (read.kind == "joint") {
       result.kind = Output::Kind::joint;
-      result.joint = require_joint(read.joint, read.joint_where, "the name of a joint");
-      robot.outputs.push_back(std::move(result));
+      result.joint = require_joint(read.joint, "the name of a joint");
       continue;
     }
     result.kind = read.kind == "position"      ? Output::Kind::position
                   : read.kind == "pose"        ? Output::Kind::pose
                   : read.kind == "orientation" ? Output::Kind::orientation
                                                : Output::Kind::direction;
-    result.link = require_link(read.link, read.link_where, "the name of a link");
-    if (!read.frame.empty()) result.relative_to = require_link(read.frame, read.frame_where, "the name of a link");
+    result.link = require_link(read.link, "the name of a link");
+    if (!read.frame.text.empty()) result.relative_to = require_link(read.frame, "the name of a link");
+    const bool has_point = !read.point.text.empty();
     if (result.kind == Output::Kind::direction && !read.vector)
-      throw ModelError(read.where, "the direction of " + in_quotes(read.name) + " is not given",
+      throw ModelError(result.where, "the direction of " + in_quotes(result.name) + " is not given",
                        "direction of link (x, y, z)");
-    if (result.kind == Output::Kind::orientation && (read.vector || !read.point.empty()))
-      throw ModelError(read.where, "the orientation of " + in_quotes(read.name) + " is given with a point",
+    if (result.kind == Output::Kind::orientation && (read.vector || has_point))
+      throw ModelError(result.where, "the orientation of " + in_quotes(result.name) + " is given with a point",
                        "orientation of link");
-    if (result.kind == Output::Kind::direction && !read.point.empty())
-      throw ModelError(read.where, "the direction of " + in_quotes(read.name) + " is given as a point",
+    if (result.kind == Output::Kind::direction && has_point)
+      throw ModelError(result.where, "the direction of " + in_quotes(result.name) + " is given as a point",
                        "direction of link (x, y, z)");
-    result.asked = read.asked;
-    result.ranges = read.ranges;
-    result.turn = read.turn;
-    result.kept = read.kept;
     if (read.vector) result.point = *read.vector;
-    if (!read.point.empty()) {
-      const Vector* const at = find_point(result.link, read.point);
-      if (at == nullptr) refuse_point(result.link, read.point, read.point_where);
-      result.point = *at;
-    }
-    robot.outputs.push_back(std::move(result));
+    if (has_point) result.point = require_point(result.link, read.point);
   }
 }
 
 void PartBuilder::include(const std::string& prefix_read) {
-  if (!folder_) {
+  if (!folder_)
     throw ModelError(quoted_where, "the file " + in_quotes(quoted) + " cannot be included: this text has no folder",
                      "a robot read from a file");
-  }
   const std::filesystem::path path = *folder_ / quoted;
   const std::string key = canonical_name(path);
-  if (std::find(open_files_.begin(), open_files_.end(), key) != open_files_.end()) {
+  if (std::find(open_files_.begin(), open_files_.end(), key) != open_files_.end())
     throw ModelError(quoted_where, "the file " + in_quotes(quoted) + " includes itself, directly or through others",
                      "a file that does not include this one");
-  }
-  if (open_files_.size() > kMaxIncludeDepth || ++includes_ > kMaxIncludes) {
+  if (open_files_.size() > kMaxIncludeDepth || ++includes_ > kMaxIncludes)
     throw ModelError(
         quoted_where, "too many files are included",
         "at most " + std::to_string(kMaxIncludes) + ", " + std::to_string(kMaxIncludeDepth) + " inside one another");
-  }
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
+  if (!std::filesystem::is_regular_file(path, error))
     throw ModelError(quoted_where, "the included file " + in_quotes(quoted) + " is not there",
                      "a file of links and joints in " + folder_->string());
-  }
   const std::string text_included = symbolic::read_text(path);
   const auto saved = std::tuple(file, folder_, prefix_, text);
   file = path.string();
@@ -272,18 +247,16 @@ void PartBuilder::leave_out_unconnected_links() {
   if (kept == held.size()) return;
   robot.links.resize(kept);
   std::erase_if(robot.joints, [&](const Joint& joint) { return !held[joint.ends[0].link]; });
-  for (Joint& joint : robot.joints) {
+  for (Joint& joint : robot.joints)
     for (JointEnd& end : joint.ends) end.link = index[end.link];
-  }
 }
 
 void PartBuilder::finish() {
-  for (const NamedInput& input : named_inputs_) {
-    Joint& joint = robot.joints[require_joint(input.joint, input.where, "the name of a joint")];
-    if (joint.actuated) {
-      throw ModelError(input.where, "the joint " + in_quotes(input.joint) + " is actuated already",
+  for (const ReadName& input : named_inputs_) {
+    Joint& joint = robot.joints[require_joint(input, "the name of a joint")];
+    if (joint.actuated)
+      throw ModelError(input.where, "the joint " + in_quotes(input.text) + " is actuated already",
                        "`actuated` after the joint, or the joint in [INPUTS]");
-    }
     joint.actuated = true;
   }
   resolve_outputs();

@@ -11,11 +11,38 @@
 #include <vector>
 
 #include "corank/kinematics/constant_scope.h"
-#include "corank/kinematics/denavit_hartenberg.h"
 #include "corank/kinematics/robot.h"
 #include "corank/symbolic/model_builder.h"
 
 namespace corank::kinematics {
+
+// The rows by which data sheets give an arm: four numbers for each joint, after Denavit and Hartenberg, "A kinematic
+// notation for lower-pair mechanisms based on matrices", 1955 (key Denavit1955).
+enum class DhConvention {
+  standard,  ///< a row is Rz(theta) Tz(d) Tx(a) Rx(alpha): its frame stands at the link's far end
+  modified   ///< a row is Rx(alpha) Tx(a) Rz(theta) Tz(d) (Craig): its frame stands on the joint's axis
+};
+
+/// Of one joint: `theta` and `d` where the joint's own coordinate is 0.
+struct DhRow {
+  Expression a = 0, alpha = 0, d = 0, theta = 0;
+};
+
+/// The row's frame in that of the row before it, the joint at 0.
+Pose dh_pose(DhConvention convention, const DhRow& row);
+
+/// The joint's ends in the frames of the row before it and of the row: its axis is z, or −z for a negative sense, and its
+/// coordinate counts from where dh_pose() has the frames.
+std::array<JointEnd, 2> dh_ends(DhConvention convention, const DhRow& row, int sense);
+
+/// A body in Geomview's OFF and COFF formats, as far as a robot needs it: vertices, which joints may name by number, and faces.
+struct OffBody {
+  std::vector<Vector> vertices;  ///< exactly as written
+  std::vector<std::vector<std::size_t>> faces;
+};
+
+/// Throws ModelError with the line where the text is no such body, or is longer than a model may be.
+OffBody parse_off(std::string_view text, const std::string& file);
 
 /// A point as read: `way` from the one before it where it was written + (v).
 struct ReadPoint {
@@ -23,6 +50,12 @@ struct ReadPoint {
   std::optional<Vector> way;
   SourceLocation where;
   std::string name{};  ///< where it was written by its name
+};
+
+/// A name as it is read, with the prefix of its file.
+struct ReadName {
+  std::string text;
+  SourceLocation where;
 };
 
 /// The joint, or the spring, being read.
@@ -48,9 +81,7 @@ struct JointDraft {
   std::optional<Expression> length;
   Pose pose;
   bool actuated = false;
-  /// Of a joint that follows another, or a gear: by their names.
-  std::string driver, follower;
-  SourceLocation driver_where, follower_where;
+  ReadName driver, follower;  ///< of a joint that follows another, or a gear
   Expression ratio = 1, offset = 0;
 
   /// "the revolute joint 'elbow'", or "the revolute joint".
@@ -78,13 +109,10 @@ struct DhDraft {
 };
 
 struct OutputDraft {
-  std::string kind, name, link, frame, point, joint;
-  SourceLocation where, link_where, frame_where, point_where, joint_where;
+  Output output;  ///< but for what names stand for
+  std::string kind;
+  ReadName link, frame, point, joint;
   std::optional<Vector> vector;
-  std::array<bool, 3> asked{true, true, true};
-  std::array<std::optional<Range>, 3> ranges;
-  std::optional<Range> turn;
-  std::optional<Pose> kept;
 };
 
 class PartBuilder : public symbolic::ModelBuilder {
@@ -106,6 +134,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   std::string resolve(std::string_view name_read) const;  ///< arm::elbow, with the prefix of the file being read
   void push_constant(std::string_view name_read, const SourceLocation& where);
   void define_constant();
+  std::size_t require_link(const ReadName& link, const std::string& expectation) const;
 
   // Points, directions, transformations.
   std::vector<ReadPoint> points;
@@ -141,9 +170,8 @@ class PartBuilder : public symbolic::ModelBuilder {
   void finish_body();
   void finish_box();
   void finish_prism();
-  void finish_sphere();
-  void finish_cylinder();
-  void finish_line();
+  /// A sphere, a cylinder; or a line.
+  void finish_solid(Shape::Kind shape_kind);
   void finish_segments();
 
   // Joints.
@@ -152,7 +180,6 @@ class PartBuilder : public symbolic::ModelBuilder {
   void begin_joint(std::string_view word, const SourceLocation& where);
   void joint_link(std::string_view name_read, const SourceLocation& where);
   void push_bracket(const SourceLocation& where);
-  void push_reference(const Vector& value, bool is_direction, const SourceLocation& where);
   void push_named_reference(const std::string& point, const SourceLocation& where);
   void finish_joint();
   void finish_connector();
@@ -163,7 +190,6 @@ class PartBuilder : public symbolic::ModelBuilder {
   // Rows of Denavit and Hartenberg.
   DhDraft dh;
   void begin_dh(std::string_view convention, const SourceLocation& where);
-  void start_dh_from(std::string_view name_read, const SourceLocation& where);
   void add_dh_column(std::string_view word, const SourceLocation& where);
   void begin_dh_row(const SourceLocation& where);
   void finish_dh_cells();
@@ -194,16 +220,11 @@ class PartBuilder : public symbolic::ModelBuilder {
     std::vector<std::pair<std::string, Vector>> points;
     std::vector<Body> bodies;
   };
-  struct NamedInput {
-    std::string joint;
-    SourceLocation where;
-  };
-
   void add_body(Body body);
+  std::vector<Vector> read_points() const;
   const Vector* find_point(std::size_t link, const std::string& point) const;
-  [[noreturn]] void refuse_point(std::size_t link, const std::string& point, const SourceLocation& where) const;
-  std::size_t require_link(const std::string& link, const SourceLocation& where, const std::string& expectation) const;
-  std::size_t require_joint(const std::string& joint, const SourceLocation& where, const std::string& expectation) const;
+  const Vector& require_point(std::size_t link, const ReadName& point) const;
+  std::size_t require_joint(const ReadName& joint, const std::string& expectation) const;
   Joint named_joint();
   void set_axes(Joint& joint);
   void set_ranges(Joint& joint);
@@ -224,7 +245,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   bool is_world_, goes_on_ = false;
   std::optional<std::size_t> link_;  ///< of the points that are read
   std::vector<LinkData> link_data_;
-  std::vector<NamedInput> named_inputs_;
+  std::vector<ReadName> named_inputs_;
   std::vector<std::string> dh_joints_, dh_tools_;  ///< of all rows; the last link of each section
   std::vector<OutputDraft> outputs_;
   std::vector<JointDraft> couplings_;

@@ -12,15 +12,39 @@ using symbolic::in_quotes;
 using symbolic::ModelError;
 using symbolic::suggestion;
 
+namespace {
+
+Pose about_x(const DhRow& row) { return translation({row.a, 0, 0}) * rotation(0, row.alpha); }
+Pose about_z(const DhRow& row) { return translation({0, 0, row.d}) * rotation(2, row.theta); }
+
+/// A joint about the z axis of a frame, its angle counted from x.
+JointEnd end_at(const Pose& frame, int sense) {
+  const auto column = [&](std::size_t i) {
+    return Vector{frame.rotation[0][i], frame.rotation[1][i], frame.rotation[2][i]};
+  };
+  JointEnd end;
+  end.point = frame.translation;
+  end.axis = sense > 0 ? column(2) : Vector{0, 0, 0} - column(2);
+  end.zero = column(0);
+  return end;
+}
+
+}  // namespace
+
+Pose dh_pose(DhConvention convention, const DhRow& row) {
+  return convention == DhConvention::standard ? about_z(row) * about_x(row) : about_x(row) * about_z(row);
+}
+
+std::array<JointEnd, 2> dh_ends(DhConvention convention, const DhRow& row, int sense) {
+  if (convention == DhConvention::standard) return {end_at(about_z(row), sense), end_at(inverse(about_x(row)), sense)};
+  return {end_at(about_x(row) * about_z(row), sense), end_at(Pose{}, sense)};
+}
+
 void PartBuilder::begin_dh(std::string_view convention, const SourceLocation& where) {
   dh = {};
   dh.where = where;
   dh.convention = small_letters(convention) == "standard" ? DhConvention::standard : DhConvention::modified;
   if (robot.links.empty()) begin_link("base", where);
-}
-
-void PartBuilder::start_dh_from(std::string_view name_read, const SourceLocation& where) {
-  dh.base = require_link(resolve(name_read), where, "the name of a link that is declared before");
 }
 
 void PartBuilder::add_dh_column(std::string_view word, const SourceLocation& where) {
@@ -52,18 +76,17 @@ void PartBuilder::finish_dh_cells() {
   const DhDraft::Variable& variable = dh.variables.front();
   for (const DhDraft::Variable& other : dh.variables) {
     const std::string& column = dh.columns[other.column];
-    if (column != "theta" && column != "d") {
+    if (column != "theta" && column != "d")
       throw ModelError(
           other.where,
           "the constant " + in_quotes(other.name) + " in the column " + in_quotes(column) + " is not defined before",
-          "a constant of [CONSTANTS]" + suggestion(resolve(other.name), scope.names()) + "; joints vary theta or d");
-    }
-    if (other.name != variable.name || other.column != variable.column) {
+          "a constant of [CONSTANTS]" + symbolic::suggestion(resolve(other.name), scope.names()) +
+              "; joints vary theta or d");
+    if (other.name != variable.name || other.column != variable.column)
       throw ModelError(
           other.where,
           "two names in this row, " + in_quotes(variable.name) + " and " + in_quotes(other.name) + ", are not constants",
           "one joint's name, in theta or d; all others are constants of [CONSTANTS]");
-    }
   }
   draft.kind = dh.columns[variable.column] == "theta" ? "revolute" : "prismatic";
   draft.name = variable.name;
@@ -90,12 +113,11 @@ void PartBuilder::read_dh_variable(DhRow& row, bool& slides, int& sense) const {
       rest = is_negated ? folded_difference(rest, bare) : folded_sum(rest, bare);
     }
   }
-  if (found != 1 || rest.mentions(symbol)) {
+  if (found != 1 || rest.mentions(symbol))
     throw ModelError(dh.variables[0].where,
                      "the column " + in_quotes(slides ? "d" : "theta") + " is " + in_quotes(cell.text()) +
                          ": the joint's coordinate is not simply added there",
                      "the joint's name, plus or minus a constant: " + draft.name + ", " + draft.name + " - 90deg");
-  }
   cell = rest;
 }
 

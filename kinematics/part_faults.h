@@ -57,8 +57,6 @@ CORANK_FAULT(grammar::segments_open, fault.found_instead_of("(x, y, z; x, y, z; 
 CORANK_FAULT(grammar::segments_comma, fault.found_instead_of("an operator, or ',' between the numbers of a point"))
 CORANK_FAULT(grammar::segments_close, fault.found_instead_of("an operator, ';' and the next point, or ')'"))
 CORANK_FAULT(grammar::known_section, fault.unknown_part_section())
-CORANK_FAULT(grammar::constant_name, fault.found_instead_of("a definition, name := expression, or a section"))
-CORANK_FAULT(grammar::assign, fault.found_instead_of("':=' after the constant's name"))
 CORANK_FAULT(grammar::link_name, fault.found_instead_of("a link, name : shapes and points, or a section"))
 CORANK_FAULT(grammar::joint_link, fault.no_joint_link())
 CORANK_FAULT(grammar::joint_colon, fault.no_joint_colon())
@@ -104,7 +102,6 @@ CORANK_FAULT(grammar::of_word, fault.found_instead_of("of and the name of a link
 CORANK_FAULT(grammar::output_what, fault.no_output_kind())
 CORANK_FAULT(grammar::section_start, fault.say("found " + symbolic::describe_start(fault.rest) + " before the first section",
                                                "a section such as [LINKS] or [JOINTS]"))
-CORANK_FAULT(grammar::file_end, fault.found_instead_of("a section"))  // cannot fail: sections go on to the end
 #undef CORANK_FAULT
 
 /// What after a shape in the line of a link is no link of its own.

@@ -11,6 +11,7 @@ namespace corank::kinematics {
 namespace {
 
 namespace peg = tao::pegtl;
+using symbolic::declare;
 using symbolic::in_quotes;
 using symbolic::ModelError;
 using symbolic::place;
@@ -22,12 +23,6 @@ struct Action : symbolic::ExpressionAction<Rule> {};
 
 #define CORANK_ACTION(rule, ...) CORANK_ACTION_OF(Action, PartBuilder, rule, __VA_ARGS__)
 #define CORANK_ACTION0(rule, ...) CORANK_ACTION0_OF(Action, PartBuilder, rule, __VA_ARGS__)
-
-template <typename ActionInput>
-void declare(const ActionInput& in, PartBuilder& b) {
-  b.declared = in.string();
-  b.declared_where = place(in, b);
-}
 
 template <typename ActionInput>
 std::string_view text_before(const ActionInput& in, const PartBuilder& b) {
@@ -132,20 +127,40 @@ CORANK_ACTION(cylinder_word, { b.shape_where = place(in, b); })
 CORANK_ACTION(line_word, { b.shape_where = place(in, b); })
 CORANK_ACTION(segments_word, { b.shape_where = place(in, b); })
 CORANK_ACTION0(hidden_word, { b.hidden = true; })
-void end_shape(PartBuilder& b, void (PartBuilder::*finish)()) {
-  (b.*finish)();
+void end_shape(PartBuilder& b) {
   b.points.clear();
   b.values.clear();
   b.shape_colour.clear();
   b.hidden = false;
 }
-CORANK_ACTION0(body_end, { end_shape(b, &PartBuilder::finish_body); })
-CORANK_ACTION0(box_end, { end_shape(b, &PartBuilder::finish_box); })
-CORANK_ACTION0(prism_end, { end_shape(b, &PartBuilder::finish_prism); })
-CORANK_ACTION0(sphere_end, { end_shape(b, &PartBuilder::finish_sphere); })
-CORANK_ACTION0(cylinder_end, { end_shape(b, &PartBuilder::finish_cylinder); })
-CORANK_ACTION0(line_end, { end_shape(b, &PartBuilder::finish_line); })
-CORANK_ACTION0(segments_end, { end_shape(b, &PartBuilder::finish_segments); })
+CORANK_ACTION0(body_end, {
+  b.finish_body();
+  end_shape(b);
+})
+CORANK_ACTION0(box_end, {
+  b.finish_box();
+  end_shape(b);
+})
+CORANK_ACTION0(prism_end, {
+  b.finish_prism();
+  end_shape(b);
+})
+CORANK_ACTION0(sphere_end, {
+  b.finish_solid(Shape::Kind::sphere);
+  end_shape(b);
+})
+CORANK_ACTION0(cylinder_end, {
+  b.finish_solid(Shape::Kind::cylinder);
+  end_shape(b);
+})
+CORANK_ACTION0(line_end, {
+  b.finish_solid(Shape::Kind::polygon);
+  end_shape(b);
+})
+CORANK_ACTION0(segments_end, {
+  b.finish_segments();
+  end_shape(b);
+})
 CORANK_ACTION(segment_point_end, { b.points.push_back({b.pop_vector(), {}, place(in, b)}); })
 
 // Links.
@@ -187,8 +202,8 @@ CORANK_ACTION(joint_link, { b.joint_link(in.string_view(), place(in, b)); })
 CORANK_ACTION0(bracket_open, { b.bracket_has_two = false; })
 CORANK_ACTION0(bracket_comma, { b.bracket_has_two = true; })
 CORANK_ACTION(range_bracket, { b.push_bracket(place(in, b)); })
-CORANK_ACTION(reference_tuple, { b.push_reference(b.pop_vector(), false, place(in, b)); })
-CORANK_ACTION(reference_offset, { b.push_reference(b.pop_vector(), true, place(in, b)); })
+CORANK_ACTION(reference_tuple, { b.draft.references.push_back({b.pop_vector(), false, place(in, b)}); })
+CORANK_ACTION(reference_offset, { b.draft.references.push_back({b.pop_vector(), true, place(in, b)}); })
 CORANK_ACTION(reference_name, { b.push_named_reference(in.string(), place(in, b)); })
 CORANK_ACTION(zero_direction, {
   b.draft.zeros.push_back(b.pop_vector());
@@ -200,13 +215,12 @@ CORANK_ACTION0(weight_end, { b.pop_value(); })
 CORANK_ACTION0(avoid_word, { b.pass_over("limits to be avoided (avoid limits)"); })
 CORANK_ACTION0(actuated_word, { b.draft.actuated = true; })
 template <typename ActionInput>
-void read_name(const ActionInput& in, PartBuilder& b, std::string& name, SourceLocation& where) {
-  name = b.resolve(in.string_view());
-  where = place(in, b);
+ReadName read_name(const ActionInput& in, const PartBuilder& b) {
+  return {b.resolve(in.string_view()), place(in, b)};
 }
-CORANK_ACTION(driver_name, { read_name(in, b, b.draft.driver, b.draft.driver_where); })
-CORANK_ACTION(gear_driver, { read_name(in, b, b.draft.driver, b.draft.driver_where); })
-CORANK_ACTION(gear_follower, { read_name(in, b, b.draft.follower, b.draft.follower_where); })
+CORANK_ACTION(driver_name, { b.draft.driver = read_name(in, b); })
+CORANK_ACTION(gear_driver, { b.draft.driver = read_name(in, b); })
+CORANK_ACTION(gear_follower, { b.draft.follower = read_name(in, b); })
 CORANK_ACTION0(ratio_end, { b.draft.ratio = b.pop_value(); })
 CORANK_ACTION0(offset_end, { b.draft.offset = b.pop_value(); })
 CORANK_ACTION0(gear_end, { b.finish_gear(); })
@@ -216,7 +230,7 @@ CORANK_ACTION0(connector_end, { b.finish_connector(); })
 
 // Rows of Denavit and Hartenberg.
 CORANK_ACTION(dh_convention, { b.begin_dh(in.string_view(), place(in, b)); })
-CORANK_ACTION(dh_base, { b.start_dh_from(in.string_view(), place(in, b)); })
+CORANK_ACTION(dh_base, { b.dh.base = b.require_link(read_name(in, b), "the name of a link that is declared before"); })
 CORANK_ACTION(dh_column, { b.add_dh_column(in.string_view(), place(in, b)); })
 CORANK_ACTION(dh_row_begin, { b.begin_dh_row(place(in, b)); })
 CORANK_ACTION0(dh_cell_end, { b.dh.cells.push_back(b.pop_value()); })
@@ -245,18 +259,15 @@ CORANK_ACTION0(equation_file, { b.read_equations(); })
 CORANK_ACTION(input_name, { b.add_input(in.string_view(), place(in, b)); })
 CORANK_ACTION(output_name, {
   b.output = {};
-  b.output.name = in.string();
-  b.output.where = place(in, b);
+  b.output.output.name = in.string();
+  b.output.output.where = place(in, b);
 })
 CORANK_ACTION(output_kind, { b.output.kind = small_letters(in.string_view()); })
 CORANK_ACTION0(joint_word, { b.output.kind = "joint"; })
-CORANK_ACTION(output_link, { read_name(in, b, b.output.link, b.output.link_where); })
-CORANK_ACTION(output_frame, { read_name(in, b, b.output.frame, b.output.frame_where); })
-CORANK_ACTION(output_point, {
-  b.output.point = in.string();
-  b.output.point_where = place(in, b);
-})
-CORANK_ACTION(output_joint, { read_name(in, b, b.output.joint, b.output.joint_where); })
+CORANK_ACTION(output_link, { b.output.link = read_name(in, b); })
+CORANK_ACTION(output_frame, { b.output.frame = read_name(in, b); })
+CORANK_ACTION(output_point, { b.output.point = {in.string(), place(in, b)}; })
+CORANK_ACTION(output_joint, { b.output.joint = read_name(in, b); })
 CORANK_ACTION0(output_tuple, { b.output.vector = b.pop_vector(); })
 CORANK_ACTION(output_axis, {
   const char first = small_letters(in.string_view())[0];
@@ -264,21 +275,12 @@ CORANK_ACTION(output_axis, {
 })
 CORANK_ACTION(output_bracket, { b.finish_output_range(place(in, b)); })
 CORANK_ACTION(only_word, { b.begin_only(place(in, b)); })
-CORANK_ACTION(only_axis, { b.output.asked[small_letters(in.string_view())[0] - 'x'] = true; })
+CORANK_ACTION(only_axis, { b.output.output.asked[small_letters(in.string_view())[0] - 'x'] = true; })
 CORANK_ACTION0(keeps_word, { b.draft.pose = {}; })
-CORANK_ACTION0(kept_end, { b.output.kept = b.draft.pose; })
+CORANK_ACTION0(kept_end, { b.output.output.kept = b.draft.pose; })
 CORANK_ACTION0(output_end, { b.finish_output(); })
 #undef CORANK_ACTION
 #undef CORANK_ACTION0
-template <>
-struct Action<symbolic::grammar::section_title> {
-  template <typename ActionInput>
-  static void apply(const ActionInput& in, PartBuilder& b) {
-    b.section_title = in.string();
-    b.section_where = place(in, b);
-    b.section_where.column -= 1;  // the bracket
-  }
-};
 
 /// Turns a failed must<Rule> into the ModelError that PartFaultOf<Rule> words.
 template <typename Rule>
@@ -321,10 +323,9 @@ bool is_utf8(std::string_view text) {
 }
 
 void parse_text(std::string_view text, PartBuilder& builder) {
-  if (text.size() > symbolic::kMaxFileBytes) {
+  if (text.size() > symbolic::kMaxFileBytes)
     throw ModelError({builder.file, 0, 0}, "the text has more than " + std::to_string(symbolic::kMaxFileBytes) + " bytes",
                      "a smaller robot");
-  }
   std::string converted;  // some of the suite's files are older than UTF-8
   if (std::filesystem::path(builder.file).extension() == ".world" && !is_utf8(text)) {
     converted = from_latin_1(text);

@@ -7,7 +7,6 @@
 
 #include <tao/pegtl.hpp>
 
-#include "corank/symbolic/grammar_words.h"
 #include "corank/symbolic/model_grammar.h"
 
 namespace corank::kinematics::grammar {
@@ -21,8 +20,9 @@ struct gap : star<sor<space, model::line_comment, hash_comment, model::block_com
 struct line_gap : star<sor<model::blank_character, model::line_comment, hash_comment, model::block_comment>> {};
 struct no_gap : success {};
 
-using model::header;
-using model::word;
+using model::assign, model::constant_end, model::constant_name, model::file_end, model::point_end, model::point_name;
+using model::header, model::word, model::section_or_end, model::known_section, model::unknown_section;
+using model::section_start, model::unit_name;
 template <typename... Letters>
 struct words : word<sor<Letters...>> {};
 #define CORANK_WORD(name, text) \
@@ -176,19 +176,12 @@ struct include_header : header<any_case<"include">> {};
 struct equations_header : header<any_case<"equations">> {};
 struct inputs_header : header<any_case<"inputs">> {};
 struct outputs_header : header<any_case<"outputs">> {};
-struct known_section : failure {};
-struct unknown_section : if_must<one<'['>, model::section_title, model::section_close, known_section> {};
-struct section_or_end : sor<eof, one<'['>> {};
 struct capital_header : header<upper, star<sor<upper, model::blank_character>>> {};
 
 // [CONSTANTS]  name := expression, print name, unit mm
 struct colon : one<':'> {};
-struct constant_name : simple_name {};
-struct assign : string<':', '='> {};
-struct constant_end : success {};
 CORANK_WORD(print_word, "print");
 CORANK_WORD(unit_word, "unit");
-struct unit_name : simple_name {};
 struct print_statement : seq<seq<print_word, gap, at<simple_name>>, simple_name> {};
 struct unit_statement : seq<seq<unit_word, gap, at<simple_name>>, unit_name> {};
 struct definition : seq<must<constant_name>, gap, must<assign>, gap, expression, constant_end, opt<gap, one<';'>>> {};
@@ -200,8 +193,6 @@ struct link_name : simple_name {};
 struct link_separator : one<':', '-'> {};
 struct link_colour : colour {};
 CORANK_WORD(point_word, "point");
-struct point_name : simple_name {};
-struct point_end : success {};
 struct point_statement : seq<seq<point_word, gap, at<simple_name, gap, one<'('>>>, point_name, gap, must<tuple>, point_end> {
 };
 struct link_part : sor<shape, point_statement, dynamics> {};
@@ -385,11 +376,9 @@ struct output_what
 struct output : seq<must<output_name>, gap, must<colon>, gap, must<output_what>, output_end> {};
 struct outputs_section : seq<outputs_header, star<gap, not_at<section_or_end>, output>> {};
 
-struct section_start : at<one<'['>> {};
 struct section : seq<must<section_start>,
                      sor<constants_section, links_section, joints_section, dh_section, obstacles_section, collisions_section,
                          include_section, equations_section, inputs_section, outputs_section, unknown_section>> {};
-struct file_end : eof {};
 struct parts : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
 
 #undef CORANK_WORD

@@ -42,11 +42,10 @@ void PartBuilder::joint_link(std::string_view name_read, const SourceLocation& w
   const std::string link = resolve(name_read);
   if (robot.find_link(link) < 0 && draft.links.size() == 1 && is_kind(small_letters(name_read)))
     throw ModelError(where, draft.described() + " has one end only", "two links, each with its points");
-  const std::size_t index = require_link(link, where, "the name of a link that [LINKS] declares before");
-  if (draft.links.size() == 1 && draft.links[0] == index) {
+  const std::size_t index = require_link({link, where}, "the name of a link that [LINKS] declares before");
+  if (draft.links.size() == 1 && draft.links[0] == index)
     throw ModelError(where, draft.described() + " connects the link " + in_quotes(name_read) + " with itself",
                      "two different links");
-  }
   draft.links.push_back(index);
   link_ = index;
 }
@@ -59,16 +58,10 @@ void PartBuilder::push_bracket(const SourceLocation& where) {
   draft.brackets.push_back(std::move(bracket));
 }
 
-void PartBuilder::push_reference(const Vector& value, bool is_direction, const SourceLocation& where) {
-  draft.references.push_back({value, is_direction, where});
-}
-
 void PartBuilder::push_named_reference(const std::string& point, const SourceLocation& where) {
   const std::size_t end = draft.references.size();
   if (end > 1) throw ModelError(where, draft.described() + " has a third reference point", "one for each end");
-  const Vector* const at = find_point(draft.links[end], point);
-  if (at == nullptr) refuse_point(draft.links[end], point, where);
-  draft.references.push_back({*at, false, where});
+  draft.references.push_back({require_point(draft.links[end], {point, where}), false, where});
 }
 
 void PartBuilder::require_brackets(std::size_t least, std::size_t most, const std::string& expectation) const {
@@ -100,10 +93,9 @@ void PartBuilder::set_axes(Joint& joint) {
   const bool parallel = is_zero(across[0]) && is_zero(across[1]) && is_zero(across[2]) &&
                         scope.sign(dot(joint.ends[0].axis, axis), what, draft.where) != -1;
   if (parallel) return;
-  if (!is_world_) {
+  if (!is_world_)
     throw ModelError(draft.where, draft.described() + " has axes of different directions in its two links",
                      "one direction: a " + draft.kind + " joint keeps the links' frames parallel");
-  }
   axis = joint.ends[0].axis;
   pass_over("second axes of prismatic joints, which differ from the first: the links' frames stay parallel");
 }
@@ -122,38 +114,33 @@ void PartBuilder::set_ranges(Joint& joint) {
                        of_kind.ranges > 0 ? "at most one, range [lower, upper]" : "none for this kind of joint");
   }
   for (const JointDraft::Bracket& bracket : draft.brackets) {
-    if (!bracket.second && !is_size) {
+    if (!bracket.second && !is_size)
       throw ModelError(bracket.where, "the range of " + draft.described() + " has one number", "[lower, upper]");
-    }
     const Range range{is_size && !bracket.second ? Expression(0) : bracket.first,
                       bracket.second ? *bracket.second : bracket.first};
-    if (scope.sign(folded_difference(range.upper, range.lower), "the range of " + draft.described(), bracket.where) == -1) {
+    if (scope.sign(folded_difference(range.upper, range.lower), "the range of " + draft.described(), bracket.where) == -1)
       throw ModelError(bracket.where,
                        is_size && !bracket.second
                            ? "the half angle of " + draft.described() + " is negative"
                            : "the range of " + draft.described() + " is empty: " + in_quotes(range.lower.text()) +
                                  " is above " + in_quotes(range.upper.text()),
                        is_size && !bracket.second ? "[half angle] from 0 to pi" : "[lower, upper]");
-    }
     joint.ranges.emplace_back(range);
   }
   const bool turns = of_kind.has_angle || is_size;
   // The frames of a parallelogram's links stay parallel: one direction is that of both.
   if (joint.kind == JointKind::parallelogram && draft.zeros.size() == 1) draft.zeros.push_back(draft.zeros[0]);
   const std::size_t n = draft.references.size() + draft.zeros.size();
-  if (n > 0 && !turns) {
+  if (n > 0 && !turns)
     throw ModelError(draft.zeros.empty() ? draft.references[0].where : draft.zero_where,
                      draft.described() + " has reference directions", "none: the joint has no angle of its own");
-  }
-  if (n > 0 && n != 2) {
+  if (n > 0 && n != 2)
     throw ModelError(draft.zeros.empty() ? draft.references.back().where : draft.zero_where,
                      draft.described() + " has " + std::to_string(n) + (n == 1 ? " reference" : " references"),
                      "one for each end");
-  }
-  if (is_size && !draft.brackets.empty() && n == 0) {
+  if (is_size && !draft.brackets.empty() && n == 0)
     throw ModelError(draft.brackets[0].where, "the half angle of " + draft.described() + " has no directions after it",
                      "range [half angle] R R: a direction in each link, the angle between which is limited");
-  }
   for (std::size_t i = 0; i < n; ++i) {
     JointEnd& end = joint.ends[i];
     const auto direction = [&]() -> Vector {
@@ -174,12 +161,11 @@ Joint PartBuilder::named_joint() {
   while (!joint.is_named && robot.find_joint(joint.name) >= 0) joint.name += "_";
   if (const int same = robot.find_joint(joint.name); same >= 0) {
     Joint& known = robot.joints[same];
-    if (known.is_named) {
+    if (known.is_named)
       throw ModelError(
           draft.name_where,
           "the joint " + in_quotes(draft.name) + " is already there, in line " + std::to_string(known.where.line),
           "another name for the joint");
-    }
     std::string other = known.name;
     while (robot.find_joint(other) >= 0) other += "_";
     known.name = other;
@@ -205,8 +191,8 @@ void PartBuilder::finish_joint() {
                      "none: only sph_sph and parallelogram have one, sph_prs_sph and uni_prs_uni a range of lengths");
   }
   if (draft.kind == "crevolute") couple(joint);
-  if (!draft.driver.empty()) {
-    draft.follower = joint.name;
+  if (!draft.driver.text.empty()) {
+    draft.follower.text = joint.name;
     couplings_.push_back(draft);
   }
   robot.joints.push_back(std::move(joint));
@@ -217,10 +203,9 @@ void PartBuilder::finish_joint() {
 
 // A crevolute joint turns by the angle of the revolute joint before it.
 void PartBuilder::couple(const Joint& joint) {
-  if (robot.joints.empty() || robot.joints.back().kind != JointKind::revolute) {
+  if (robot.joints.empty() || robot.joints.back().kind != JointKind::revolute)
     throw ModelError(draft.where, draft.described() + " follows no revolute joint",
                      "the joint with which it is coupled before it");
-  }
   robot.missing.push_back(joint.where.text() + ": the coupling of " + draft.described() +
                           " with the joint before it: coupled joints (crevolute) are not supported");
 }
@@ -232,8 +217,8 @@ void PartBuilder::finish_gear() {
 
 void PartBuilder::resolve_couplings() {
   for (const JointDraft& read : couplings_) {
-    const std::size_t driver = require_joint(read.driver, read.driver_where, "the name of the joint that leads");
-    const std::size_t follower = require_joint(read.follower, read.follower_where, "the name of the joint that follows");
+    const std::size_t driver = require_joint(read.driver, "the name of the joint that leads");
+    const std::size_t follower = require_joint(read.follower, "the name of the joint that follows");
     robot.couplings.push_back({driver, follower, read.ratio, read.offset, read.where});
   }
 }

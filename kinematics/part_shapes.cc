@@ -3,7 +3,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "corank/kinematics/off_file.h"
 #include "corank/kinematics/part_builder.h"
 #include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
@@ -52,13 +51,14 @@ void PartBuilder::shift_point() {
   points.back().name.clear();
 }
 
-void PartBuilder::refuse_point(std::size_t link, const std::string& point, const SourceLocation& where) const {
+const Vector& PartBuilder::require_point(std::size_t link, const ReadName& point) const {
+  if (const Vector* at = find_point(link, point.text)) return *at;
   constexpr std::size_t kMostNames = 8;
   std::string known;
   const auto& named = link_data_[link].points;
   for (std::size_t i = 0; i < named.size() && i < kMostNames; ++i) known += (i == 0 ? " " : ", ") + named[i].first;
   if (named.size() > kMostNames) known += " …";
-  throw ModelError(where, "the link " + in_quotes(robot.links[link].name) + " has no point " + in_quotes(point),
+  throw ModelError(point.where, "the link " + in_quotes(robot.links[link].name) + " has no point " + in_quotes(point.text),
                    "(x, y, z), or a point named in the link" + (known.empty() ? "" : ":" + known));
 }
 
@@ -77,49 +77,39 @@ void PartBuilder::push_vertex(std::string_view digits, const SourceLocation& whe
   number[1] = read(colon == std::string_view::npos ? digits : digits.substr(colon + 1));
   if (colon != std::string_view::npos) number[0] = read(digits.substr(0, colon));
   const std::vector<Body>& bodies = link_data_[*link_].bodies;
-  if (number[0] >= bodies.size()) {
+  if (number[0] >= bodies.size())
     throw ModelError(where, "the link " + in_quotes(owner) + " has no body " + std::to_string(number[0]),
                      bodies.empty() ? "a point (x, y, z): the link has no bodies"
                                     : "a body from 0 to " + std::to_string(bodies.size() - 1));
-  }
   const Body& body = bodies[number[0]];
-  if (!body.is_read) {
+  if (!body.is_read)
     throw ModelError(where,
                      "the vertex " + std::to_string(number[1]) + " of the body " + in_quotes(body.file) + " of the link " +
                          in_quotes(owner) + " is needed, but the body's file is not there",
                      "the file, or a point (x, y, z)");
-  }
-  if (number[1] >= body.vertices.size()) {
+  if (number[1] >= body.vertices.size())
     throw ModelError(where,
                      "the body " + std::to_string(number[0]) + " of the link " + in_quotes(owner) + " has no vertex " +
                          in_quotes(std::string(digits)),
                      body.vertices.empty() ? std::string("a point (x, y, z)")
                                            : "a vertex from 0 to " + std::to_string(body.vertices.size() - 1));
-  }
   points.push_back({body.vertices[number[1]], {}, where});
 }
 
 const Vector* PartBuilder::find_point(std::size_t link, const std::string& point) const {
-  for (const auto& [known, at] : link_data_[link].points) {
+  for (const auto& [known, at] : link_data_[link].points)
     if (known == point) return &at;
-  }
   return nullptr;
 }
 
 void PartBuilder::push_named_point(const std::string& point, const SourceLocation& where) {
   if (!link_) throw ModelError(where, "the point " + in_quotes(point) + " belongs to no link", "(x, y, z)");
-  if (const Vector* at = find_point(*link_, point)) {
-    points.push_back({*at, {}, where, point});
-    return;
-  }
-  const std::string& owner = robot.links[*link_].name;
-  if (robot.find_link(resolve(point)) >= 0 && !draft.kind.empty()) {
+  if (find_point(*link_, point) == nullptr && robot.find_link(resolve(point)) >= 0 && !draft.kind.empty())
     throw ModelError(where,
-                     "the end of " + draft.described() + " on the link " + in_quotes(owner) + " has " +
+                     "the end of " + draft.described() + " on the link " + in_quotes(robot.links[*link_].name) + " has " +
                          (points.size() % 2 == 1 ? "one point" : "no point"),
                      points.size() % 2 == 1 ? "two points of the axis: P Q, or P + (direction)" : "a point of the link");
-  }
-  refuse_point(*link_, point, where);
+  points.push_back({require_point(*link_, {point, where}), {}, where, point});
 }
 
 void PartBuilder::finish_transform() {
@@ -127,12 +117,11 @@ void PartBuilder::finish_transform() {
   values.resize(values_before_transform);
   const std::string& word = transform_name;
   const std::size_t wanted = word == "txyz" ? 3 : word == "tr" ? 12 : 1;
-  if (arguments.size() != wanted) {
+  if (arguments.size() != wanted)
     throw ModelError(transform_where,
                      "the transformation " + in_quotes(word) + " has " + std::to_string(arguments.size()) + " numbers",
                      word == "tr" ? "12 numbers, the rows of a rotation matrix each followed by its translation"
                                   : std::to_string(wanted));
-  }
   Pose step;
   const int axis = word.back() - 'x';
   if (word == "txyz") {
@@ -150,14 +139,12 @@ void PartBuilder::finish_transform() {
   draft.pose = draft.pose * (transform_is_inverse ? inverse(step) : step);
   transform_is_inverse = false;
   std::size_t nodes = 0;
-  for (const Vector& row : draft.pose.rotation) {
+  for (const Vector& row : draft.pose.rotation)
     for (const Expression& e : row) count_nodes(e, nodes);
-  }
   for (const Expression& e : draft.pose.translation) count_nodes(e, nodes);
-  if (nodes > kMaxPoseNodes) {
+  if (nodes > kMaxPoseNodes)
     throw ModelError(transform_where, "the product of transformations has grown too long",
                      "a shorter one, or fixed joints with links between them");
-  }
 }
 
 // ---- colours
@@ -206,11 +193,10 @@ void PartBuilder::begin_link(const std::string& name_read, const SourceLocation&
 
 void PartBuilder::finish_named_point() {
   const Vector at = pop_vector();
-  if (find_point(*link_, declared) != nullptr) {
+  if (find_point(*link_, declared) != nullptr)
     throw ModelError(declared_where,
                      "the link " + in_quotes(robot.links[*link_].name) + " has already a point " + in_quotes(declared),
                      "another name for the point");
-  }
   link_data_[*link_].points.emplace_back(declared, at);
 }
 
@@ -219,25 +205,18 @@ void PartBuilder::add_body(Body body) {
 }
 
 void PartBuilder::finish_shape(Shape::Kind shape_kind, std::vector<Vector> shape_points, const Expression& radius) {
-  if (!hidden && !in_obstacles) {
-    Shape shape;
-    shape.kind = shape_kind;
-    shape.points = std::move(shape_points);
-    shape.radius = radius;
-    shape.colour = shape_colour.empty() ? link_colour : shape_colour;
-    shape.where = shape_where;
-    robot.links[*link_].shapes.push_back(std::move(shape));
-  }
+  if (hidden || in_obstacles) return;
+  const std::string& own = shape_colour.empty() ? link_colour : shape_colour;
+  robot.links[*link_].shapes.push_back({shape_kind, std::move(shape_points), radius, own, shape_where});
 }
 
 void PartBuilder::finish_body() {
-  Body body;
-  body.file = quoted;
+  Body body{quoted, false, {}};
   if (folder_ && !in_obstacles) {
     const std::filesystem::path path = *folder_ / quoted;
     std::error_code error;
-    body.is_read = std::filesystem::is_regular_file(path, error);
-    if (body.is_read) {
+    if (std::filesystem::is_regular_file(path, error)) {
+      body.is_read = true;
       OffBody off = parse_off(symbolic::read_text(path), path.string());
       if (off.faces.size() > kMaxFaces) {
         pass_over("bodies of more than " + std::to_string(kMaxFaces) + " faces, which are not drawn");
@@ -250,8 +229,6 @@ void PartBuilder::finish_body() {
       }
       body.vertices = std::move(off.vertices);
     }
-  } else {
-    body.is_read = false;
   }
   if (!body.is_read && !in_obstacles) pass_over("bodies whose files are not there");
   add_body(std::move(body));
@@ -260,9 +237,8 @@ void PartBuilder::finish_body() {
 void PartBuilder::finish_box() {
   const Vector a = points[0].at, b = points[1].at;
   std::vector<Vector> v;
-  for (const Vector& z : {a, b}) {
+  for (const Vector& z : {a, b})
     v.insert(v.end(), {{a[0], a[1], z[2]}, {a[0], b[1], z[2]}, {b[0], b[1], z[2]}, {b[0], a[1], z[2]}});
-  }
   for (const std::array<std::size_t, 4>& f :
        {std::array<std::size_t, 4>{0, 1, 2, 3}, {6, 5, 4, 7}, {3, 2, 6, 7}, {2, 1, 5, 6}, {4, 5, 1, 0}, {0, 3, 7, 4}}) {
     finish_shape(Shape::Kind::polygon, {v[f[0]], v[f[1]], v[f[2]], v[f[3]]}, 0);
@@ -272,8 +248,7 @@ void PartBuilder::finish_box() {
 
 void PartBuilder::finish_prism() {
   const Expression height = pop_value();
-  std::vector<Vector> v;
-  for (const ReadPoint& p : points) v.push_back(p.at);
+  std::vector<Vector> v = read_points();
   const Vector normal = cross(v[1] - v[0], v[2] - v[0]);
   const Expression factor = height / symbolic::sqrt(dot(normal, normal));
   for (std::size_t i = 0; i < 3; ++i) {
@@ -283,33 +258,25 @@ void PartBuilder::finish_prism() {
   }
   finish_shape(Shape::Kind::polygon, {v[0], v[1], v[2]}, 0);
   finish_shape(Shape::Kind::polygon, {v[5], v[4], v[3]}, 0);
-  for (const std::array<std::size_t, 2>& side : {std::array<std::size_t, 2>{0, 1}, {1, 2}, {2, 0}}) {
+  for (const std::array<std::size_t, 2>& side : {std::array<std::size_t, 2>{0, 1}, {1, 2}, {2, 0}})
     finish_shape(Shape::Kind::polygon, {v[side[0] + 3], v[side[1] + 3], v[side[1]], v[side[0]]}, 0);
-  }
   add_body({"", true, v});
 }
 
-void PartBuilder::finish_sphere() {
-  const Vector centre = points[0].at;
-  finish_shape(Shape::Kind::sphere, {centre}, pop_value());
-  add_body({"", true, {centre}});
+std::vector<Vector> PartBuilder::read_points() const {
+  std::vector<Vector> list;
+  for (const ReadPoint& p : points) list.push_back(p.at);
+  return list;
 }
 
-void PartBuilder::finish_cylinder() {
-  const std::vector<Vector> ends{points[0].at, points[1].at};
-  finish_shape(Shape::Kind::cylinder, ends, pop_value());
-  add_body({"", true, ends});
-}
-
-void PartBuilder::finish_line() {
-  const std::vector<Vector> ends{points[0].at, points[1].at};
-  finish_shape(Shape::Kind::polygon, ends, 0);
+void PartBuilder::finish_solid(Shape::Kind shape_kind) {
+  const std::vector<Vector> ends = read_points();
+  finish_shape(shape_kind, ends, shape_kind == Shape::Kind::polygon ? 0 : pop_value());
   add_body({"", true, ends});
 }
 
 void PartBuilder::finish_segments() {
-  std::vector<Vector> ends;
-  for (const ReadPoint& p : points) ends.push_back(p.at);
+  const std::vector<Vector> ends = read_points();
   for (std::size_t i = 0; i + 1 < ends.size(); i += 2) finish_shape(Shape::Kind::polygon, {ends[i], ends[i + 1]}, 0);
   add_body({"", true, ends});
 }

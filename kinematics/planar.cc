@@ -1,7 +1,4 @@
-#include "corank/kinematics/planar.h"
-
-#include "corank/kinematics/plane.h"
-#include "corank/kinematics/portrayal.h"
+#include "corank/kinematics/drafting.h"
 #include "corank/kinematics/spanning_tree.h"
 
 namespace corank::kinematics {

@@ -1,8 +1,8 @@
-#include "corank/kinematics/portrayal.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "corank/kinematics/drafting.h"
 
 namespace corank::kinematics {
 namespace {

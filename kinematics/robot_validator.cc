@@ -60,11 +60,10 @@ class RobotValidator {
     if (joint.kind == JointKind::fixed) check_pose(joint.pose, what, where);
     if (joint.kind == JointKind::distance || joint.kind == JointKind::parallelogram)
       require_positive(joint.length, "the length of " + what, "a length above 0", where);
-    if (joint.actuated && !has_coordinate(joint.kind)) {
+    if (joint.actuated && !has_coordinate(joint.kind))
       throw ModelError(where, what + " cannot be actuated: it has no angle or displacement of its own",
                        "an actuated joint of the kind revolute, prismatic, parallelogram, cylindrical, universal, "
                        "sph_prs_sph or uni_prs_uni");
-    }
   }
 
   /// Each follows one joint, and nobody himself.
@@ -91,7 +90,7 @@ class RobotValidator {
       const std::string ratio = "the ratio by which " + what;
       if (scope_.sign(c.ratio, ratio, where).value_or(0) == 0)
         throw ModelError(where, ratio + ", " + in_quotes(c.ratio.text()) + ", is 0", "another number, or a fixed joint");
-      scope_.check(c.offset, "the offset by which " + what, where);
+      scope_.value(c.offset, "the offset by which " + what, where);
     }
     std::vector<int> actuated(driver.size(), -1);
     for (std::size_t j = 0; j < driver.size(); ++j) {
@@ -119,23 +118,20 @@ class RobotValidator {
       if (output.joint >= robot_.joints.size())
         throw ModelError(where, what + " is of a joint that is not there", "a joint of the robot");
       const Joint& joint = robot_.joints[output.joint];
-      if (!has_coordinate(joint.kind)) {
+      if (!has_coordinate(joint.kind))
         throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or displacement of its own",
                          "a revolute, prismatic, parallelogram, cylindrical, universal, sph_prs_sph or uni_prs_uni joint");
-      }
-      if (joint.actuated) {
+      if (joint.actuated)
         throw ModelError(where, what + " is of " + described(joint) + ", which is actuated: its coordinate is an input",
                          "a joint that no actuator drives");
-      }
       return;
     }
     const std::size_t links = robot_.links.size();
     if (output.link >= links || output.relative_to >= links)
       throw ModelError(where, what + " is of a link that is not there", "a link of the robot");
-    if (output.link == output.relative_to) {
+    if (output.link == output.relative_to)
       throw ModelError(where, what + " is of the link " + in_quotes(robot_.links[output.link].name) + " in itself",
                        "two different links; without `in` an output is measured in the first link, the ground");
-    }
     check(output.point, what, where);
     if (output.kind == Output::Kind::direction) require_direction(output.point, "the direction of " + what, where);
     check_slice(output, what, where);
@@ -212,14 +208,13 @@ class RobotValidator {
   std::string described(const Joint& joint) const {
     const std::string kind = to_string(joint.kind);
     std::string links;
-    for (const JointEnd& end : joint.ends) {
+    for (const JointEnd& end : joint.ends)
       if (end.link < robot_.links.size()) links += (links.empty() ? "" : "–") + robot_.links[end.link].name;
-    }
     return "the " + kind + " joint " + in_quotes(joint.is_named ? joint.name : links);
   }
 
   void check(const Vector& v, const std::string& owner, const symbolic::SourceLocation& where) {
-    for (const Expression& e : v) scope_.check(e, owner, where);
+    for (const Expression& e : v) scope_.value(e, owner, where);
   }
 
   void require_positive(const Expression& e, const std::string& what, const std::string& expectation,
@@ -255,31 +250,28 @@ class RobotValidator {
 
   void check_ranges(const Joint& joint, const std::string& what, const symbolic::SourceLocation& where) {
     const std::size_t most = traits(joint.kind).ranges;
-    if (joint.ranges.size() > most) {
+    if (joint.ranges.size() > most)
       throw ModelError(where, what + " has " + std::to_string(joint.ranges.size()) + " ranges",
                        most == 0   ? "none for this kind of joint"
                        : most == 1 ? "at most one"
                                    : "at most two");
-    }
     for (const std::optional<Range>& range : joint.ranges) {
       if (!range) continue;
       const std::string of = "the range of " + what;
       check_range(*range, of, where);
       const bool is_size = joint.kind == JointKind::spherical || is_extensible(joint.kind);
-      if (is_size && scope_.sign(range->lower, of, where) == -1) {
+      if (is_size && scope_.sign(range->lower, of, where) == -1)
         throw ModelError(where, of + " begins with " + in_quotes(range->lower.text()) + ", which is negative",
                          joint.kind == JointKind::spherical ? "[half angle]" : "the range of a length");
-      }
     }
   }
 
   void check_range(const Range& range, const std::string& of, const symbolic::SourceLocation& where) {
-    scope_.check(range.lower, of, where);
-    if (scope_.sign(folded_difference(range.upper, range.lower), of, where) == -1) {
+    scope_.value(range.lower, of, where);
+    if (scope_.sign(folded_difference(range.upper, range.lower), of, where) == -1)
       throw ModelError(where,
                        of + " is empty: " + in_quotes(range.lower.text()) + " is above " + in_quotes(range.upper.text()),
                        "[lower, upper]");
-    }
   }
 
   void check_pose(const Pose& pose, const std::string& what, const symbolic::SourceLocation& where) {

@@ -1,11 +1,8 @@
-#include "corank/kinematics/spatial.h"
-
 #include <algorithm>
 #include <ranges>
 
-#include "corank/kinematics/concentric.h"
+#include "corank/kinematics/drafting.h"
 #include "corank/kinematics/frames.h"
-#include "corank/kinematics/portrayal.h"
 #include "corank/kinematics/rods.h"
 #include "corank/kinematics/twists.h"
 

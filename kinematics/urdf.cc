@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "corank/kinematics/part_file.h"
-#include "corank/kinematics/urdf_document.h"
-#include "corank/kinematics/urdf_tree.h"
+#include "corank/kinematics/urdf_reading.h"
 #include "corank/symbolic/model_file.h"
 
 namespace corank::kinematics {
@@ -25,7 +24,7 @@ void add_loops(Robot& robot, const UrdfLoops& loops) {
 }  // namespace
 
 Robot parse_urdf(std::string_view text, const std::string& file, const std::optional<UrdfLoops>& loops) {
-  Robot robot = read_urdf_tree(UrdfDocument(text, file), file, loops.has_value());
+  Robot robot = read_urdf_tree(text, file, loops.has_value());
   if (loops) add_loops(robot, *loops);
   if (std::none_of(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.actuated; }))
     robot.notices.push_back("no <transmission> says which joints are actuated; list them in [INPUTS] of a .loops file");

@@ -1,4 +1,4 @@
-#include "corank/kinematics/urdf_document.h"
+#include "corank/kinematics/urdf_reading.h"
 
 #include <algorithm>
 #include <array>
@@ -65,10 +65,9 @@ void UrdfDocument::check_elements() const {
   int depth = 0;
   for (pugi::xml_node node = robot_; node;) {
     if (node.type() == pugi::node_element) {
-      if (depth > kMaxDepth) {
+      if (depth > kMaxDepth)
         throw ModelError(where(node), "elements are nested too deeply",
                          "at most " + std::to_string(kMaxDepth) + " inside one another");
-      }
       check_attributes(node);
     }
     if (node.first_child()) {
@@ -90,10 +89,9 @@ void UrdfDocument::check_attributes(const pugi::xml_node& element) const {
     throw ModelError(where(element), "<" + symbolic::shortened(element.name()) + "> is xacro", kRunXacro);
   std::set<std::string_view> names;
   for (const pugi::xml_attribute& attribute : element.attributes()) {
-    if (!names.insert(attribute.name()).second) {
+    if (!names.insert(attribute.name()).second)
       throw ModelError(where(attribute), "the attribute " + in_quotes(attribute.name()) + " is written twice in one element",
                        "it once");
-    }
     const std::string_view value = attribute.value();
     if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }))
       throw ModelError(where(attribute), "a control character in an attribute", "visible characters and blanks");

@@ -83,6 +83,16 @@ Expression multiple_of_pi(int half_degrees) {
   return denominator == 1 ? product : product / Expression(denominator);
 }
 
+// Of the angle without its sign, how many quarter turns it is beyond whole turns.
+std::optional<int> quarters_of(const UrdfNumber& angle) {
+  if (!angle.half_degrees || *angle.half_degrees % (kHalfTurn / 2) != 0) return std::nullopt;
+  return std::abs(*angle.half_degrees / (kHalfTurn / 2)) % 4;
+}
+// The positive one, so that equal functions are equal trees.
+Expression size_of(const UrdfNumber& angle) {
+  return angle.approximate < 0 ? folded_difference(0, angle.value) : angle.value;
+}
+
 }  // namespace
 
 UrdfNumber urdf_number(std::string_view text, const SourceLocation& where, const std::string& what) {
@@ -141,34 +151,26 @@ std::array<UrdfNumber, 3> urdf_numbers(std::string_view text, const SourceLocati
     if (count < 3) numbers[count] = read(word, where, what);
     rest.remove_prefix(word.size());
   }
-  if (count != 3) {
+  if (count != 3)
     throw ModelError(where,
                      what + " is " + in_quotes(text) + ", " + (count > 3 ? "more than 3" : std::to_string(count)) +
                          (count == 1 ? " number" : " numbers"),
                      "three, separated by spaces");
-  }
   return numbers;
 }
 
-// By quarter turns exactly; else of the positive angle, so that equal functions are equal trees.
 Expression exact_cos(const UrdfNumber& angle) {
-  if (angle.half_degrees && *angle.half_degrees % (kHalfTurn / 2) == 0) {
-    const int quarters = std::abs(*angle.half_degrees / (kHalfTurn / 2)) % 4;
-    return quarters == 0 ? 1 : quarters == 2 ? -Expression(1) : Expression(0);
-  }
-  return cos(angle.approximate < 0 ? folded_difference(0, angle.value) : angle.value);
+  if (const auto quarters = quarters_of(angle)) return *quarters == 0 ? 1 : *quarters == 2 ? -Expression(1) : Expression(0);
+  return cos(size_of(angle));
 }
 
 Expression exact_sin(const UrdfNumber& angle) {
-  const bool is_negative = angle.approximate < 0;
-  Expression sine;
-  if (angle.half_degrees && *angle.half_degrees % (kHalfTurn / 2) == 0) {
-    const int quarters = std::abs(*angle.half_degrees / (kHalfTurn / 2)) % 4;
-    sine = quarters == 1 ? Expression(1) : quarters == 3 ? -Expression(1) : Expression(0);
-  } else {
-    sine = sin(is_negative ? folded_difference(0, angle.value) : angle.value);
-  }
-  return is_negative ? folded_difference(0, sine) : sine;
+  const auto quarters = quarters_of(angle);
+  const Expression sine = !quarters        ? sin(size_of(angle))
+                          : *quarters == 1 ? Expression(1)
+                          : *quarters == 3 ? -Expression(1)
+                                           : Expression(0);
+  return angle.approximate < 0 ? folded_difference(0, sine) : sine;
 }
 
 }  // namespace corank::kinematics

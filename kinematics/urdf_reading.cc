@@ -17,12 +17,6 @@ using symbolic::suggestion;
 
 constexpr std::size_t kMaxNotices = 100;
 
-std::string listed(std::initializer_list<std::string_view> names) {
-  std::string text;
-  for (std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
-
 bool is_fit(std::string_view name) { return symbolic::is_identifier(name) && !symbolic::is_reserved(name); }
 
 }  // namespace
@@ -30,19 +24,17 @@ bool is_fit(std::string_view name) { return symbolic::is_identifier(name) && !sy
 std::string_view UrdfReading::required(const pugi::xml_node& element, const char* attribute,
                                        const std::string& owner) const {
   const std::string_view text = element.attribute(attribute).value();
-  if (text.empty()) {
+  if (text.empty())
     throw ModelError(where(element), owner + " has no " + attribute,
                      "<" + std::string(element.name()) + " " + attribute + "=\"…\">");
-  }
   return text;
 }
 
 pugi::xml_node UrdfReading::only_child(const pugi::xml_node& element, const char* name) const {
   const pugi::xml_node child = element.child(name);
-  if (const pugi::xml_node second = child ? child.next_sibling(name) : pugi::xml_node()) {
+  if (const pugi::xml_node second = child ? child.next_sibling(name) : pugi::xml_node())
     throw ModelError(where(second), "a second <" + std::string(name) + "> in one <" + element.name() + ">",
                      "one, such as that of line " + std::to_string(where(child).line));
-  }
   return child;
 }
 
@@ -51,7 +43,7 @@ void UrdfReading::allow_attributes(const pugi::xml_node& element, std::initializ
     const std::string_view name = attribute.name();
     if (name.find(':') != std::string_view::npos || std::find(names.begin(), names.end(), name) != names.end()) continue;
     throw ModelError(where(attribute), "<" + std::string(element.name()) + "> has an unknown attribute " + in_quotes(name),
-                     listed(names));
+                     symbolic::joined({names.begin(), names.end()}));
   }
 }
 
@@ -60,10 +52,9 @@ void UrdfReading::allow_children(const pugi::xml_node& element, std::initializer
     if (child.type() != pugi::node_element) continue;
     const std::string_view name = child.name();
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    if (const std::string meant = nearest_name(std::string(name), {names.begin(), names.end()}); !meant.empty()) {
+    if (const std::string meant = symbolic::nearest_name(std::string(name), {names.begin(), names.end()}); !meant.empty())
       throw ModelError(where(child), "an unknown element <" + symbolic::shortened(name) + ">",
                        "<" + meant + ">, or another name");
-    }
     notice("<" + symbolic::shortened(name) + "> in a <" + element.name() + "> passed over");
   }
 }
@@ -123,10 +114,9 @@ std::vector<std::string> UrdfReading::notices() const {
 std::size_t UrdfNames::add(const pugi::xml_node& element) {
   const std::string_view name = reading_.required(element, "name", "a " + what_);
   const auto [at, is_new] = index_.try_emplace(name, list_.size());
-  if (!is_new) {
+  if (!is_new)
     throw ModelError(reading_.where(element.attribute("name")), "a second " + what_ + " called " + in_quotes(name),
                      "each name once; the first is in line " + std::to_string(lines_[at->second]));
-  }
   list_.push_back(name);
   lines_.push_back(reading_.where(element).line);
   return list_.size() - 1;
@@ -138,7 +128,7 @@ std::size_t UrdfNames::find(const pugi::xml_node& element, const char* attribute
   if (found != index_.end()) return found->second;
   throw ModelError(
       reading_.where(element.attribute(attribute)), "there is no " + what_ + " " + in_quotes(name),
-      "the name of a <" + what_ + "> of this file" + suggestion(std::string(name), {list_.begin(), list_.end()}));
+      "the name of a <" + what_ + "> of this file" + symbolic::suggestion(std::string(name), {list_.begin(), list_.end()}));
 }
 
 std::vector<std::string> UrdfNames::identifiers() {

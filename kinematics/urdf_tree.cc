@@ -1,11 +1,8 @@
-#include "corank/kinematics/urdf_tree.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "corank/kinematics/urdf_reading.h"
-#include "corank/kinematics/urdf_visual.h"
 #include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/nearest_name.h"
@@ -30,8 +27,7 @@ struct Edge {
 
 class TreeReader {
  public:
-  TreeReader(const UrdfDocument& document, const std::string& file, bool closed)
-      : reading_(document), top_(document.robot()), closed_(closed) {
+  TreeReader(std::string_view text, const std::string& file, bool closed) : reading_(text, file), closed_(closed) {
     robot_.file = file;
     robot_.unit = "m";
   }
@@ -117,12 +113,11 @@ class TreeReader {
     if (edge.parent == edge.child)
       throw ModelError(where, joint_text(edges_.size()) + " joins the link " + child + " with itself", "two links");
     std::size_t& parent = parent_edge_[edge.child];
-    if (parent != kNone) {
+    if (parent != kNone)
       throw ModelError(where,
                        "the link " + child + " is the child of two joints, " + in_quotes(joints_[parent]) + " and " +
                            in_quotes(joints_[edges_.size()]),
                        kCloseLoops);
-    }
     parent = edges_.size();
     edges_.push_back(edge);
   }
@@ -131,18 +126,16 @@ class TreeReader {
     std::size_t root = kNone;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       if (parent_edge_[i] != kNone) continue;
-      if (root != kNone) {
+      if (root != kNone)
         throw ModelError(
             reading_.where(link_elements_[i]),
             "two links are not the child of a joint, " + in_quotes(links_[root]) + " and " + in_quotes(links_[i]),
             "one root, which is the ground");
-      }
       root = i;
     }
-    if (root == kNone) {
+    if (root == kNone)
       throw ModelError(reading_.where(link_elements_[0]), "every link is the child of a joint, so there is no ground",
                        kCloseLoops);
-    }
     return root;
   }
 
@@ -156,9 +149,8 @@ class TreeReader {
         const std::size_t edge = parent_edge_[link];
         if (edge == kNone) break;
         link = edges_[edge].parent;
-        if (seen[link] == start) {
+        if (seen[link] == start)
           throw ModelError(reading_.where(edges_[edge].element), joint_text(edge) + " closes a cycle of links", kCloseLoops);
-        }
       }
     }
   }
@@ -225,8 +217,9 @@ class TreeReader {
     if (type == "fixed") return JointKind::fixed;
     if (type == "planar") return JointKind::planar;
     const std::vector<std::string> types{"revolute", "continuous", "prismatic", "fixed", "planar", "floating"};
-    throw ModelError(where, "a joint's type is " + in_quotes(type),
-                     "revolute, continuous, prismatic, fixed, planar or floating" + suggestion(std::string(type), types));
+    throw ModelError(
+        where, "a joint's type is " + in_quotes(type),
+        "revolute, continuous, prismatic, fixed, planar or floating" + symbolic::suggestion(std::string(type), types));
   }
 
   // Once all joints are there: one may follow another that stands behind it.
@@ -272,10 +265,9 @@ class TreeReader {
 
   void pass_floating(std::size_t index, const SourceLocation& where) {
     const std::string child = in_quotes(links_[edges_[index].child]);
-    if (!closed_) {
+    if (!closed_)
       throw ModelError(where, joint_text(index) + " is floating: nothing holds the link " + child,
                        "a fixed joint, or a .loops file whose joints hold it");
-    }
     reading_.notice(joint_text(index) + " is floating, so it is left out: loops have to hold the link " + child);
   }
 
@@ -328,18 +320,16 @@ class TreeReader {
       return is_angle ? reading_.angle(limit, attribute, what) : reading_.number(limit, attribute, what);
     };
     const std::optional<UrdfNumber> written_lower = read("lower"), written_upper = read("upper");
-    if (!written_lower && !written_upper) {
+    if (!written_lower && !written_upper)
       throw ModelError(reading_.where(limit),
                        joint_text(index) + " has neither a lower nor an upper limit: URDF takes 0 for both", otherwise);
-    }
     const UrdfNumber zero = urdf_angle("0", {}, "0");
     const UrdfNumber lower = written_lower.value_or(zero), upper = written_upper.value_or(zero);
-    if (lower.approximate > upper.approximate) {
+    if (lower.approximate > upper.approximate)
       throw ModelError(reading_.where(limit),
                        "the lower limit of " + joint_text(index) + " is above the upper one, " + lower.value.text() + " > " +
                            upper.value.text(),
                        "lower <= upper");
-    }
     if (is_angle && covers_circle(lower, upper)) {
       reading_.notice("limits of a whole turn or more do not limit a joint");
       return {};
@@ -357,12 +347,11 @@ class TreeReader {
     const auto mark = [&](const pugi::xml_node& element, const std::string& owner) {
       const std::size_t index = joints_.find(element, "name", "the joint of a " + owner);
       const int joint = edges_[index].joint;
-      if (joint < 0 || robot_.joints[joint].kind == JointKind::fixed) {
+      if (joint < 0 || robot_.joints[joint].kind == JointKind::fixed)
         throw ModelError(
             reading_.where(element),
             "a " + owner + " drives " + joint_text(index) + ", which is " + edges_[index].element.attribute("type").value(),
             "a joint that moves");
-      }
       robot_.joints[joint].actuated = true;
     };
     for (const pugi::xml_node& transmission : top_.children("transmission"))
@@ -373,7 +362,7 @@ class TreeReader {
   }
 
   UrdfReading reading_;
-  pugi::xml_node top_;
+  const pugi::xml_node top_ = reading_.robot();
   bool closed_;
   Robot robot_;
   UrdfNames links_{reading_, "link"}, joints_{reading_, "joint"};
@@ -386,8 +375,8 @@ class TreeReader {
 
 }  // namespace
 
-Robot read_urdf_tree(const UrdfDocument& document, const std::string& file, bool closed) {
-  return TreeReader(document, file, closed).read();
+Robot read_urdf_tree(std::string_view text, const std::string& file, bool closed) {
+  return TreeReader(text, file, closed).read();
 }
 
 }  // namespace corank::kinematics

@@ -1,4 +1,4 @@
-#include "corank/kinematics/urdf_visual.h"
+#include "corank/kinematics/urdf_reading.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,10 +39,9 @@ Expression half(const Expression& length) { return length / 2; }
 std::optional<UrdfNumber> read_size(const UrdfReading& reading, const pugi::xml_node& geometry, const char* attribute) {
   reading.required(geometry, attribute, std::string("a ") + geometry.name());
   const UrdfNumber size = *reading.number(geometry, attribute, std::string("the ") + attribute + " of a " + geometry.name());
-  if (size.approximate < 0) {
+  if (size.approximate < 0)
     throw ModelError(reading.where(geometry.attribute(attribute)),
                      std::string("the ") + attribute + " of a " + geometry.name() + " is negative", "a positive length");
-  }
   if (size.is_zero) return {};
   return size;
 }
@@ -99,7 +98,7 @@ bool add_box(const UrdfReading& reading, const pugi::xml_node& box, const Pose& 
 
 UrdfColours read_urdf_colours(const UrdfReading& reading) {
   UrdfColours colours;
-  for (const pugi::xml_node& material : reading.document.robot().children("material"))
+  for (const pugi::xml_node& material : reading.robot().children("material"))
     colours.emplace(material.attribute("name").value(), read_colour(reading, material));
   return colours;
 }

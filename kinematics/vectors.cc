@@ -76,9 +76,8 @@ Expression dot(const Vector& a, const Vector& b) {
 Pose operator*(const Pose& a, const Pose& b) {
   Pose result;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
+    for (std::size_t j = 0; j < 3; ++j)
       result.rotation[i][j] = dot(a.rotation[i], {b.rotation[0][j], b.rotation[1][j], b.rotation[2][j]});
-    }
     result.translation[i] = folded_sum(dot(a.rotation[i], b.translation), a.translation[i]);
   }
   return result;
@@ -103,8 +102,8 @@ Pose rotation(int axis, const Expression& angle) {
   Expression c = cos(angle), s = sin(angle);
   if (!has_names(angle)) {
     ConstantScope numbers;
-    const auto cosine = numbers.integer(c, "a rotation", angle.where());
-    const auto sine = numbers.integer(s, "a rotation", angle.where());
+    const auto cosine = numbers.value(c, "a rotation", angle.where()).integer();
+    const auto sine = numbers.value(s, "a rotation", angle.where()).integer();
     if (cosine && sine) {
       c = Expression(*cosine);
       s = Expression(*sine);

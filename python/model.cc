@@ -8,8 +8,8 @@
 #include "corank/study/model.h"
 #include "corank/study/question.h"
 #include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/model_text.h"
-#include "corank/symbolic/regular_locus.h"
+#include "corank/symbolic/printer.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 
 namespace corank::python {
 namespace {

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "corank/symbolic/nearest_name.h"
+#include "corank/symbolic/expression_words.h"
 
 namespace corank::result {
 namespace {
@@ -34,7 +34,7 @@ std::string upper(std::string name) {
 
 std::string nearest(const std::string& name) {
   return *std::ranges::min_element(cuik_parameters(), {},
-                                   [&](const std::string& known) { return symbolic::letter_changes(name, known); });
+                                   [&](const std::string& known) { return symbolic::edit_distance(name, known); });
 }
 
 const std::map<std::string, double (*)(double)> kFunctions{

@@ -10,7 +10,7 @@
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/model_text.h"
+#include "corank/symbolic/printer.h"
 #include "corank/symbolic/singularity_system.h"
 
 namespace corank::study {

@@ -4,7 +4,7 @@
 #include "corank/core/check.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
-#include "corank/symbolic/node_system.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 
 namespace corank::study {
 namespace {

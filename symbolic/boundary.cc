@@ -9,6 +9,7 @@
 #include "corank/symbolic/ginac_bridge.h"
 #include "corank/symbolic/ginac_lock.h"
 #include "corank/symbolic/kernel_scale.h"
+#include "corank/symbolic/kernel_vector.h"
 
 namespace corank::symbolic {
 namespace {
@@ -17,20 +18,17 @@ using Active = BoundaryPart::Active;
 
 constexpr std::size_t kMostParts = 1000;
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// What the boundary asks of a mechanism: Φ and its derivative.
 struct Outline {
   Mechanism mechanism;  // without a velocity equation of its own
   VelocityEquation velocity;
   std::vector<Expression> phi;
   long mobility = 0;
+  std::size_t ties = 0, free = 0;  // outputs that are tied, and others
 };
 
 Outline outline(const Mechanism& mechanism) {
-  Outline o{mechanism.without_rates(), {}, {}, 0};
+  Outline o{mechanism.without_rates(), {}, {}};
   const SourceLocation where{mechanism.name(), 0, 0};
   if (mechanism.outputs().empty())
     throw ModelError(where, "the model names no outputs, over which the boundary lies",
@@ -38,14 +36,13 @@ Outline outline(const Mechanism& mechanism) {
   Derivation derivation = derive(o.mechanism);
   o.velocity = std::move(derivation.velocity);
   o.phi = std::move(derivation.phi);
-  o.mobility = static_cast<long>(o.velocity.matrix.columns.size()) - static_cast<long>(o.phi.size());
+  o.mobility = std::ssize(o.velocity.matrix.columns) - std::ssize(o.phi);
   const Role output = Role::output;
-  const long ties = static_cast<long>(o.velocity.ties(std::span(&output, 1)).size()),
-             free = static_cast<long>(mechanism.outputs().size()) - ties;
-  if (o.phi.empty() || free > o.mobility || free < 1)
+  o.ties = o.velocity.ties(std::span(&output, 1)).size();
+  o.free = mechanism.outputs().size() - o.ties;
+  if (o.phi.empty() || std::cmp_greater(o.free, o.mobility) || o.free < 1)
     throw ModelError(where,
-                     "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(free) +
-                         " free output" + (free == 1 ? "" : "s"),
+                     "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + counted(o.free, "free output"),
                      "at least one output, and at most as many as the mobility");
   return o;
 }
@@ -86,8 +83,8 @@ KernelQuestion question(const Outline& o, const BoundaryPart& part) {
 class Lagrangian {
  public:
   Lagrangian(const Outline& o, const TrigonometricSystem& system)
-      : bridge_(names(system.constants), names(system.coordinates, system.kernel_unknowns)) {
-    const std::vector<Expression> lambda = kernel_components(system);
+      : bridge_(names_of(system.constants), with(names_of(system.coordinates), system.kernel_unknowns)) {
+    const std::vector<Expression> lambda = scaled(system.kernel_unknowns, system.kernel_scales);
     for (std::size_t i = 0; i < o.phi.size(); ++i)
       value_ += bridge_.to_ginac(lambda[i], {}) * bridge_.to_ginac(o.phi[i], {});
   }
@@ -98,11 +95,9 @@ class Lagrangian {
   }
 
  private:
-  static std::vector<std::string> names(const auto& list, std::vector<std::string> behind = {}) {
-    std::vector<std::string> result;
-    for (const auto& item : list) result.push_back(item.name);
-    result.insert(result.end(), behind.begin(), behind.end());
-    return result;
+  static std::vector<std::string> with(std::vector<std::string> names, const std::vector<std::string>& more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return names;
   }
 
   GinacBridge bridge_;
@@ -156,12 +151,10 @@ std::string BoundaryPart::text() const {
 
 std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
   const Outline o = outline(mechanism);
-  const Role output = Role::output;
-  const std::size_t free = mechanism.outputs().size() - o.velocity.ties(std::span(&output, 1)).size(),
-                    most = o.mobility - free + 1;
+  const std::size_t most = o.mobility - o.free + 1;
   std::vector<Limit> others, of_outputs;
   for (const Limit& limit : effective_limits(mechanism))
-    (contains(mechanism.outputs(), limit.coordinate) ? of_outputs : others).push_back(limit);
+    (role_of(mechanism, limit.coordinate) == Role::output ? of_outputs : others).push_back(limit);
   std::vector<BoundaryPart> parts;
   std::vector<Active> chosen;
   for (std::size_t size = 0; size <= std::min(most, others.size()); ++size) add_choices(others, 0, size, chosen, parts);
@@ -178,8 +171,7 @@ KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& p
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
                                         const TrigonometricSystem& system) {
   const Outline o = outline(mechanism);
-  const Role output = Role::output;
-  if (!o.velocity.ties(std::span(&output, 1)).empty()) return std::nullopt;
+  if (o.ties > 0) return std::nullopt;
   if (part.of_output) return form_of_output(mechanism, part.active.front());
   const KernelQuestion kernel = question(o, part);
   PassageForm form;

@@ -194,9 +194,8 @@ ConstantValue ConstantValue::function(const std::string& name, const ConstantVal
     const std::optional<int> s = function("cos", x).sign();
     if (!s || *s == 0) throw std::domain_error("tan at a pole");
   }
-  if (name == "abs") {
+  if (name == "abs")
     if (const std::optional<int> s = x.sign()) return *s < 0 ? -x : x;
-  }
   return ConstantValue(apply_function(name, x.value_));
 }
 

@@ -63,11 +63,8 @@ std::vector<std::string> multiplier_scales(const Mechanism& mechanism) {
   return scales;
 }
 
-const SetDefinition& critical_set() {
-  static const SetDefinition set{
-      .set = std::nullopt, .name = "critical", .matrix = "[Phi_q; grad h]", .side = KernelSide::left};
-  return set;
-}
+constexpr SetDefinition kCritical{
+    .set = std::nullopt, .name = "critical", .matrix = "[Phi_q; grad h]", .side = KernelSide::left};
 
 }  // namespace
 
@@ -81,7 +78,7 @@ CriticalPoints critical_points(const Mechanism& mechanism, int height) {
   const GinacLock lock;
   const GinacBridge bridge(mechanism);
   std::vector<GiNaC::ex> functions;
-  KernelQuestion kernel{critical_set(), critical_set().matrix, {result.names, {}}, {}, KernelSide::left, {}};
+  KernelQuestion kernel{kCritical, kCritical.matrix, {result.names, {}}, {}, KernelSide::left, {}};
   for (const Constraint& c : mechanism.equations()) {
     functions.push_back(bridge.to_ginac(c.relation.lhs, c.where) - bridge.to_ginac(c.relation.rhs, c.where));
     kernel.where.push_back(c.where);

@@ -88,22 +88,17 @@ struct Product {
 };
 
 std::optional<Product> product_of(Expression e) {
-  Product result;
-  if (e.kind() == Expression::Kind::negation) {
-    result.sign = -1;
-    e = Expression(e.operands()[0]);
-  }
+  int sign = 1;
+  const auto without_sign = [&](const Expression& signed_one) {
+    if (signed_one.kind() != Expression::Kind::negation) return signed_one;
+    sign = -sign;
+    return signed_one.operands()[0];
+  };
+  e = without_sign(e);
   if (e.kind() != Expression::Kind::product || e.operands().size() != 2) return std::nullopt;
-  if (e.operands()[0].kind() == Expression::Kind::negation) {
-    result.sign = -result.sign;
-    e = Expression(e.operands()[0].operands()[0]) * e.operands()[1];
-    if (e.operands().size() != 2) return std::nullopt;
-  }
-  const auto first = wave_of(e.operands()[0]), second = wave_of(e.operands()[1]);
+  const auto first = wave_of(without_sign(e.operands()[0])), second = wave_of(e.operands()[1]);
   if (!first || !second || first->angle == second->angle) return std::nullopt;
-  result.first = *first;
-  result.second = *second;
-  return result;
+  return Product{sign, *first, *second};
 }
 
 // Of ±(sin a cos b ∓ cos a sin b) and ±(cos a cos b ± sin a sin b), which are sin(a ∓ b) and cos(a ∓ b): a ∓ b is one of two

@@ -49,13 +49,11 @@ void validate(const DrawingPart& part, const std::set<std::string>& known) {
   const std::string kind = to_string(part.kind);
   std::set<std::string> seen;
   for (const std::string& name : part.points) {
-    if (!known.contains(name)) {
+    if (!known.contains(name))
       throw ModelError(part.where, "the " + kind + " names " + in_quotes(name) + ", which is not a point of the drawing",
                        "the name of a point, declared as point " + shortened(name) + " = (x, y)");
-    }
-    if (!seen.insert(name).second) {
+    if (!seen.insert(name).second)
       throw ModelError(part.where, "the " + kind + " names the point " + in_quotes(name) + " twice", "each point once");
-    }
   }
   const KindOfPart& row = row_of(part.kind);
   if (part.points.size() < row.fewest || (row.form && part.points.size() > row.fewest))
@@ -80,14 +78,12 @@ int Drawing::find(const std::string& point) const {
 void Drawing::validate() const {
   std::set<std::string> known;
   for (const DrawingPoint& point : points) {
-    if (!known.insert(point.name).second) {
+    if (!known.insert(point.name).second)
       throw ModelError(point.where, "the point " + in_quotes(point.name) + " is already declared", "another name");
-    }
     const std::size_t n = point.coordinates.size();
-    if (n < 2 || n > 3 || static_cast<int>(n) != dimension()) {
+    if (n < 2 || n > 3 || static_cast<int>(n) != dimension())
       throw ModelError(point.where, "the point " + in_quotes(point.name) + " has " + std::to_string(n) + " coordinates",
                        point.name == points.front().name ? "2 or 3" : std::to_string(dimension()) + ", as the first point");
-    }
     if (!point.velocity.empty() && point.velocity.size() != n)
       throw ModelError(
           point.where,
@@ -96,10 +92,9 @@ void Drawing::validate() const {
   }
   for (const DrawingPart& part : parts) {
     corank::symbolic::validate(part, known);
-    if (part.kind == Kind::hinge && dimension() == 2) {
+    if (part.kind == Kind::hinge && dimension() == 2)
       throw ModelError(part.where, "the hinge is in a drawing whose points have 2 coordinates",
                        "joint " + shortened(part.points[0]) + ": in the plane every axis is at right angles to it");
-    }
   }
 }
 

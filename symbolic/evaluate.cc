@@ -65,8 +65,7 @@ ExactNumber exact_value(const Mechanism& mechanism, const Expression& expression
   const SourceLocation where{mechanism.name(), 0, 0};
   try {
     PolynomialExpander expander;
-    for (const Constant& c : mechanism.constants())
-      expander.add_constant(c.name, expander.constant(c.value, "the constant " + in_quotes(c.name), c.where));
+    for (const Constant& c : mechanism.constants()) expander.define(c);
     return expander.constant(expression, "the value of " + in_quotes(what), where).exact();
   } catch (const std::domain_error& error) {
     throw ModelError(where, "the value of " + in_quotes(what) + " is not a real number: " + error.what(), "a real number");

@@ -20,10 +20,9 @@ struct Expression::Node {
 Expression Expression::make(Kind kind, std::string name, std::vector<Expression> operands, const SourceLocation& where) {
   int depth = 0;
   for (const Expression& operand : operands) depth = std::max(depth, operand.node_->depth + 1);
-  if (depth > kMaxDepth) {
+  if (depth > kMaxDepth)
     throw ModelError(where, "the expression is nested too deeply",
                      "at most " + std::to_string(kMaxDepth) + " operations inside one another");
-  }
   return Expression(std::make_shared<const Node>(Node{kind, std::move(name), std::move(operands), where, depth}));
 }
 
@@ -42,12 +41,9 @@ Expression Expression::number(const std::string& decimal, const SourceLocation& 
 }
 
 Expression Expression::symbol(const std::string& name, const SourceLocation& where) {
-  if (!is_identifier(name)) {
+  if (!is_identifier(name))
     throw ModelError(where, in_quotes(name) + " is not a name", "letters, digits and _, not beginning with a digit");
-  }
-  if (is_function_name(name)) {
-    throw ModelError(where, "the function " + in_quotes(name) + " has no argument", name + "(…)");
-  }
+  if (is_function_name(name)) throw ModelError(where, "the function " + in_quotes(name) + " has no argument", name + "(…)");
   return make(Kind::symbol, name, {}, where);
 }
 
@@ -63,10 +59,9 @@ Expression Expression::node(Kind kind, std::vector<Expression> operands, const S
   if (n_ary && operands.size() == 1) return operands[0];
   const std::size_t arity = kind == Kind::negation ? 1 : 2;
   const bool has_operands = n_ary || kind == Kind::quotient || kind == Kind::power || kind == Kind::negation;
-  if (!has_operands || (!n_ary && operands.size() != arity)) {
+  if (!has_operands || (!n_ary && operands.size() != arity))
     throw ModelError(where, "an operation with " + std::to_string(operands.size()) + " operands",
                      has_operands ? std::to_string(arity) + " operands" : "a sum, product, quotient, power or negation");
-  }
   return make(kind, "", std::move(operands), where);
 }
 
@@ -95,6 +90,10 @@ bool same_tree(const Expression& a, const Expression& b) {
   if (a.node_ == b.node_) return true;
   return a.kind() == b.kind() && a.name() == b.name() &&
          std::equal(a.operands().begin(), a.operands().end(), b.operands().begin(), b.operands().end(), same_tree);
+}
+
+bool same_relation(const Relation& a, const Relation& b) {
+  return a.kind == b.kind && same_tree(a.lhs, b.lhs) && same_tree(a.rhs, b.rhs);
 }
 
 // a + b + c in C++ is (a + b) + c and means one sum of three, as it does in a file; a + (b + c) keeps its parentheses.

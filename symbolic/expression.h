@@ -44,6 +44,15 @@ class Expression {
   /// Is it written with signs that a factor must keep in parentheses?
   bool is_sum_or_negation() const { return kind() == Kind::sum || kind() == Kind::negation; }
 
+  /// A function that is written with its name: not sqrt and abs, which enclose their argument.
+  bool is_named_function() const { return kind() == Kind::function && name() != "sqrt" && name() != "abs"; }
+  bool is_whole_number() const { return kind() == Kind::number && name().find_first_of(".e") == std::string::npos; }
+  /// Is it written without parentheses below an exponent?
+  bool is_bare_base() const {
+    return kind() == Kind::symbol || (kind() == Kind::number && name().find('e') == std::string::npos) ||
+           (kind() == Kind::function && !is_named_function());
+  }
+
   /// Does the name occur?
   bool mentions(const std::string& symbol_name) const;
   /// With values in place of names.
@@ -94,6 +103,7 @@ struct Relation {
     return {lhs.substituted(values), kind, rhs.substituted(values)};
   }
 };
+bool same_relation(const Relation& a, const Relation& b);
 Relation operator==(const Expression& lhs, const Expression& rhs);
 Relation operator<=(const Expression& lhs, const Expression& rhs);
 Relation operator>=(const Expression& lhs, const Expression& rhs);

@@ -1,4 +1,4 @@
-// What the tokens of an expression mean, to any grammar that has expressions (model_file.cc, kinematics/part_file.cc).
+// What the tokens of an expression, of comments and of section headers mean, to any grammar that has expressions (model_file.cc, kinematics/part_file.cc).
 #pragma once
 
 #include <string>
@@ -31,6 +31,13 @@ void end_operand(const ActionInput& in, ModelBuilder& b) {
   b.equation_is_empty = false;
 }
 
+/// What is declared here.
+template <typename ActionInput>
+void declare(const ActionInput& in, ModelBuilder& b) {
+  b.declared = in.string();
+  b.declared_where = place(in, b);
+}
+
 /// To be inherited by an Action that means more.
 template <typename Rule>
 struct ExpressionAction : tao::pegtl::nothing<Rule> {};
@@ -51,6 +58,11 @@ struct ExpressionAction : tao::pegtl::nothing<Rule> {};
 #define CORANK_EXPRESSION_ACTION0(rule, ...) CORANK_ACTION0_OF(ExpressionAction, ModelBuilder, rule, __VA_ARGS__)
 
 CORANK_EXPRESSION_ACTION(block_comment_open, { b.comment_where = place(in, b); })
+CORANK_EXPRESSION_ACTION(section_title, {
+  b.section_title = in.string();
+  b.section_where = place(in, b);
+  b.section_where.column -= 1;  // the bracket
+})
 
 CORANK_EXPRESSION_ACTION0(expression_begin, { b.expressions.begin(); })
 CORANK_EXPRESSION_ACTION0(expression_end, { b.values.push_back(b.expressions.end()); })
@@ -71,9 +83,8 @@ CORANK_EXPRESSION_ACTION(name_token, {
   end_operand(in, b);
 })
 CORANK_EXPRESSION_ACTION0(symbol_end, {
-  if (is_function_name(b.name)) {
+  if (is_function_name(b.name))
     throw ModelError(b.name_where, "the function " + in_quotes(b.name) + " has no argument", b.name + "(…)");
-  }
   b.expressions.symbol(b.name, b.keep_places ? b.name_where : SourceLocation{});
 })
 CORANK_EXPRESSION_ACTION(group_open, {
@@ -81,10 +92,9 @@ CORANK_EXPRESSION_ACTION(group_open, {
   b.equation_is_empty = false;
 })
 CORANK_EXPRESSION_ACTION(call_open, {
-  if (!is_function_name(b.name)) {
+  if (!is_function_name(b.name))
     throw ModelError(b.name_where, "unknown function " + in_quotes(b.name),
                      "an operator after the name, or one of " + function_names());
-  }
   b.expressions.open(place(in, b), b.name, b.keep_places ? b.name_where : SourceLocation{});
 })
 CORANK_EXPRESSION_ACTION(group_close, {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <numeric>
 
 namespace corank::symbolic {
 namespace {
@@ -33,11 +34,7 @@ bool is_function_name(std::string_view name) {
   return std::find(kFunctions.begin(), kFunctions.end(), name) != kFunctions.end();
 }
 
-std::string function_names() {
-  std::string result;
-  for (std::string_view f : kFunctions) result += (result.empty() ? "" : ", ") + std::string(f);
-  return result;
-}
+std::string function_names() { return joined({kFunctions.begin(), kFunctions.end()}); }
 
 bool is_reserved(std::string_view name) { return name == "pi" || name == "deg" || is_function_name(name); }
 
@@ -62,18 +59,16 @@ std::string normal_decimal(std::string_view text, const SourceLocation& where) {
   }
   if (!well_formed || !rest.empty())
     throw ModelError(where, in_quotes(text) + " is not a number", "a number such as 2, 0.90 or 1e-6");
-  if (whole.size() + fraction.size() > kMaxDigits) {
+  if (whole.size() + fraction.size() > kMaxDigits)
     throw ModelError(where,
                      "the number " + in_quotes(text) + " has " + std::to_string(whole.size() + fraction.size()) + " digits",
                      "at most " + std::to_string(kMaxDigits));
-  }
   int power = 0;
   const auto parsed = std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
-  if (!exponent.empty() && (parsed.ec != std::errc() || power > kMaxDecimalExponent)) {
+  if (!exponent.empty() && (parsed.ec != std::errc() || power > kMaxDecimalExponent))
     throw ModelError(where, "the number " + in_quotes(text) + " is out of range",
                      "an exponent of ten between -" + std::to_string(kMaxDecimalExponent) + " and " +
                          std::to_string(kMaxDecimalExponent));
-  }
   std::string result(whole.empty() ? "0" : whole);
   if (!fraction.empty()) result.append(".").append(fraction);
   if (!exponent.empty()) result.append(negative_exponent ? "e-" : "e").append(exponent);
@@ -88,7 +83,49 @@ std::string shortened(std::string_view text) {
   return std::string(text.substr(0, n)) + "…";
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
 std::string in_quotes(std::string_view text) { return "'" + shortened(text) + "'"; }
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (small(a[i - 1]) == small(b[j - 1]) ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
+  constexpr std::size_t kLongest = 60;
+  if (name.size() > kLongest) return "";
+  std::string best;
+  std::size_t fewest = name.size() / 3 + 1;
+  for (const std::string& candidate : known) {
+    if (candidate.size() > kLongest) continue;
+    const std::size_t changes = edit_distance(name, candidate);
+    if (changes >= candidate.size() || changes > fewest || (changes == fewest && !best.empty())) continue;
+    best = candidate;
+    fewest = changes;
+  }
+  return best;
+}
+
+std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_name(name, known);
+  return nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?";
+}
 
 std::string counted(std::size_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "corank/symbolic/model_error.h"
 
@@ -24,7 +25,17 @@ std::string normal_decimal(std::string_view text, const SourceLocation& where);
 /// At most 40 bytes of a text, "…" behind them where it is longer; and the same in quotes. For messages.
 std::string shortened(std::string_view text);
 std::string in_quotes(std::string_view text);
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
 /// "1 point", "2 points".
 std::string counted(std::size_t n, const std::string& noun);
+
+/// How many letters are to be changed (inserted, deleted, replaced) that a becomes b. Capital letters count as small ones.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+/// Of the names that exist the one that an author may have meant: with the fewest changes, where these are few for the length
+/// of both. Empty where there is none.
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
+/// "; did you mean 'hand'?" or nothing.
+std::string suggestion(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace corank::symbolic

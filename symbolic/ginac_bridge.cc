@@ -82,16 +82,6 @@ ex apply_function(const std::string& name, const ex& x) {
   throw std::domain_error("the function " + name + " is not known");
 }
 
-namespace {
-
-std::vector<std::string> names_of(const auto& declared) {
-  std::vector<std::string> names;
-  for (const auto& d : declared) names.push_back(d.name);
-  return names;
-}
-
-}  // namespace
-
 GinacBridge::GinacBridge(const Mechanism& mechanism)
     : GinacBridge(names_of(mechanism.constants()), names_of(mechanism.coordinates())) {}
 

@@ -54,8 +54,7 @@ bool are_alike(const TrigonometricSystem& a, const TrigonometricSystem& b) {
            x.auxiliary == y.auxiliary && x.has_range == y.has_range && x.direction == y.direction;
   };
   const auto relations = [](const TrigonometricSystem::Equation& x, const TrigonometricSystem::Equation& y) {
-    return x.relation.kind == y.relation.kind && same_tree(x.relation.lhs, y.relation.lhs) &&
-           same_tree(x.relation.rhs, y.relation.rhs);
+    return same_relation(x.relation, y.relation);
   };
   return same(a.constants, b.constants, constants) && same(a.coordinates, b.coordinates, coordinates) &&
          same(a.equations, b.equations, relations) && same(a.inequalities, b.inequalities, relations) &&
@@ -160,7 +159,7 @@ std::vector<std::vector<double>> entry_sizes(const Mechanism& mechanism, const E
     for (const Expression& e : row) system.claimed.push_back({e == Expression(0), "entry", {}, false});
   const System polynomials = algebrize(system);
   std::vector<Interval> whole = polynomials.domain();
-  std::copy_n(box.begin(), std::min(box.size(), static_cast<std::size_t>(polynomials.configuration_size)), whole.begin());
+  std::copy_n(box.begin(), std::min<std::size_t>(box.size(), polynomials.configuration_size), whole.begin());
 
   const UpwardRounding rounding;
   std::vector<std::vector<double>> sizes;
@@ -246,23 +245,28 @@ struct Sizes {
   bool angles = false;
 };
 
-Sizes right_sizes(const Mechanism& mechanism, const KernelQuestion& kernel, const std::vector<Interval>& box) {
-  Sizes sizes;
-  const std::vector<std::string>& columns = kernel.matrix.columns;
-  const std::vector<std::size_t>& eliminated = kernel.passive.eliminated;
+// Of each coordinate over the box; 0 of those without a unit, angles and directions.
+std::vector<double> length_sizes(const Mechanism& mechanism, const std::vector<Interval>& box) {
+  std::vector<double> sizes;
   std::size_t variable = 0;
-  for (const Coordinate& coordinate : mechanism.coordinates()) {
-    const bool is_angle = coordinate.kind == CoordinateKind::angle, has_unit = !is_angle && !coordinate.direction;
-    const auto column = std::find(columns.begin(), columns.end(), coordinate.name);
-    if (column != columns.end() &&
-        std::binary_search(eliminated.begin(), eliminated.end(), static_cast<std::size_t>(column - columns.begin()))) {
-      sizes.of_columns.push_back(0);
-    } else if (column != columns.end()) {
-      sizes.of_columns.push_back(has_unit ? size_of(box[variable]) : 0);
-      sizes.largest = std::max(sizes.largest, sizes.of_columns.back());
-      sizes.angles = sizes.angles || !has_unit;
-    }
+  for (const Coordinate& c : mechanism.coordinates()) {
+    const bool is_angle = c.kind == CoordinateKind::angle;
+    sizes.push_back(is_angle || c.direction ? 0 : size_of(box[variable]));
     variable += is_angle ? 2 : 1;
+  }
+  return sizes;
+}
+
+Sizes right_sizes(const Mechanism& mechanism, const KernelQuestion& kernel, const std::vector<Interval>& box) {
+  const std::vector<double> all = length_sizes(mechanism, box);
+  const std::vector<std::size_t>& eliminated = kernel.passive.eliminated;
+  Sizes sizes;
+  for (std::size_t j = 0; j < kernel.matrix.columns.size(); ++j) {
+    const bool stays = !std::binary_search(eliminated.begin(), eliminated.end(), j);
+    const double size = stays ? all[mechanism.find_coordinate(kernel.matrix.columns[j])] : 0;
+    sizes.of_columns.push_back(size);
+    sizes.largest = std::max(sizes.largest, size);
+    sizes.angles = sizes.angles || (stays && size == 0);
   }
   return sizes;
 }
@@ -296,14 +300,8 @@ std::vector<double> equation_sizes(const Mechanism& mechanism) {
 }
 
 std::string typical_length(const Mechanism& mechanism) {
-  const std::shared_ptr<const Configurations> all = configurations(mechanism);
-  double largest = 0;
-  std::size_t variable = 0;
-  for (const Coordinate& coordinate : mechanism.coordinates()) {
-    const bool is_angle = coordinate.kind == CoordinateKind::angle;
-    if (!is_angle && !coordinate.direction) largest = std::max(largest, size_of(all->box[variable]));
-    variable += is_angle ? 2 : 1;
-  }
+  const std::vector<double> sizes = length_sizes(mechanism, configurations(mechanism)->box);
+  const double largest = *std::max_element(sizes.begin(), sizes.end());
   return largest > 0 ? number(largest, 0) : "1";
 }
 

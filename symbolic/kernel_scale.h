@@ -26,7 +26,7 @@ namespace corank::symbolic {
 /// 1/max_j |L_ij| s_j relative to the first row, in two digits.
 ///
 /// Of cusps and nodes: those of the locus by coordinates, without elimination, and one number more, by which the scale of a
-/// length is its typical size: it takes the unit out of second derivatives (cusp_system.h) and distances (node_system.h).
+/// length is its typical size: it takes the unit out of second derivatives and distances (cusps_and_nodes.h).
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt);
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel);

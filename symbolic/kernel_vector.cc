@@ -66,12 +66,6 @@ std::optional<Expression> kernel_row(const std::vector<Expression>& entries, con
   return Expression::node(Kind::sum, terms);
 }
 
-Expression generic_component(std::size_t i) {
-  const unsigned long fraction = (i + 1) * 618'034UL % 1'000'000UL;
-  const std::string digits = std::to_string(3000 + 7 * fraction / 1000);  // in 3000 … 9999
-  return Expression::number("0." + digits);
-}
-
 Expression sum_of(const std::vector<Expression>& terms) { return Expression::node(Kind::sum, terms); }
 
 Expression square_of(const std::vector<Expression>& x) {
@@ -88,7 +82,11 @@ Expression dot(const std::vector<Expression>& x, const std::vector<Expression>& 
 
 Expression generic_form(const std::vector<Expression>& x) {
   std::vector<Expression> terms;
-  for (const Expression& component : x) terms.push_back(generic_component(terms.size()) * component);
+  for (const Expression& component : x) {
+    const unsigned long fraction = (terms.size() + 1) * 618'034UL % 1'000'000UL;
+    const std::string digits = std::to_string(3000 + 7 * fraction / 1000);  // in 3000 … 9999
+    terms.push_back(Expression::number("0." + digits) * component);
+  }
   return sum_of(terms);
 }
 

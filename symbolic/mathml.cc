@@ -27,8 +27,6 @@ std::string base_and_subscript(const DisplayName& shown) {
   return element("mi", html_text(shown.base)) + element(letter ? "mi" : "mn", html_text(shown.subscript));
 }
 
-bool has_upright_name(const Expression& e) { return e.kind() == Kind::function && e.name() != "sqrt" && e.name() != "abs"; }
-
 std::string mathml_number(const std::string& decimal) {
   const std::size_t e = decimal.find('e');
   if (e == std::string::npos) return element("mn", decimal);
@@ -53,16 +51,12 @@ std::string mathml_function(const Expression& e, const std::string& exponent = "
 
 std::string mathml_power(const Expression& e) {
   const Expression &base = e.operands()[0], &exponent = e.operands()[1];
-  const bool whole = exponent.kind() == Kind::number && exponent.name().find_first_of(".e") == std::string::npos;
-  if (has_upright_name(base) && whole) return mathml_function(base, mathml(exponent));
+  if (base.is_named_function() && exponent.is_whole_number()) return mathml_function(base, mathml(exponent));
   if (base.kind() == Kind::symbol) {
     const DisplayName shown = display_name(base.name());
     if (!shown.subscript.empty()) return element("msubsup", base_and_subscript(shown) + row(mathml(exponent)));
   }
-  const bool bare = base.kind() == Kind::symbol ||
-                    (base.kind() == Kind::number && base.name().find('e') == std::string::npos) ||
-                    (base.kind() == Kind::function && !has_upright_name(base));
-  return element("msup", fenced_if(!bare, base) + row(mathml(exponent)));
+  return element("msup", fenced_if(!base.is_bare_base(), base) + row(mathml(exponent)));
 }
 
 std::string mathml_sum(const Expression& e) {
@@ -83,7 +77,7 @@ bool begins_with_a_number(const Expression& e) {
 }
 
 bool begins_with_a_function(const Expression& e) {
-  return has_upright_name(e) || (e.kind() == Kind::power && has_upright_name(e.operands()[0]));
+  return e.is_named_function() || (e.kind() == Kind::power && e.operands()[0].is_named_function());
 }
 
 std::string mathml_product(const Expression& e) {
@@ -91,7 +85,7 @@ std::string mathml_product(const Expression& e) {
   const Expression* left = nullptr;
   for (const Expression& factor : e.operands()) {
     // Behind a function the argument would seem to go on, behind a letter a number would seem to be its index.
-    const bool dot = left && (has_upright_name(*left) ? !has_upright_name(factor) : begins_with_a_number(factor));
+    const bool dot = left && (left->is_named_function() ? !factor.is_named_function() : begins_with_a_number(factor));
     if (left) text += sign(dot ? "·" : kInvisibleTimes);
     if (left && !dot && begins_with_a_function(factor)) text += kThinSpace;  // "rb cos", not "rbcos"
     text += fenced_if(factor.is_sum_or_negation() || (left && factor.kind() == Kind::product), factor);

@@ -32,9 +32,8 @@ void Mechanism::declare(const std::string& name, Declared kind, const SourceLoca
   const std::string expectation = kind == Declared::constant ? "another name for the constant"
                                   : kind == Declared::rate   ? "another name for the rate"
                                                              : "another name for the variable";
-  if (!is_identifier(name)) {
+  if (!is_identifier(name))
     throw ModelError(where, in_quotes(name) + " is not a name", "letters, digits and _, not beginning with a digit");
-  }
   if (is_reserved(name)) throw ModelError(where, "the name " + in_quotes(name) + " is reserved", expectation);
   if (const auto found = names_.find(name); found != names_.end())
     throw ModelError(where, "the name " + in_quotes(name) + " is already declared" + declared_at(found->second.where),
@@ -57,20 +56,6 @@ Expression Mechanism::coordinate(const Coordinate& c) {
   declare(c.name, Declared::coordinate, c.where);
   coordinates_.push_back(c);
   return Expression::symbol(c.name);
-}
-
-Expression Mechanism::length(const std::string& name, const Expression& lower, const Expression& upper,
-                             const SourceLocation& where) {
-  return coordinate({name, CoordinateKind::length, lower, upper, where});
-}
-
-Expression Mechanism::angle(const std::string& name, const Expression& lower, const Expression& upper,
-                            const SourceLocation& where) {
-  return coordinate({name, CoordinateKind::angle, lower, upper, where});
-}
-
-Expression Mechanism::length_without_range(const std::string& name, const SourceLocation& where) {
-  return coordinate({name, CoordinateKind::length, 0, 0, where, false, false});
 }
 
 std::vector<Expression> Mechanism::compose(Composite::Kind kind, const std::string& name,
@@ -134,56 +119,43 @@ void Mechanism::velocity(const Relation& relation, const SourceLocation& where) 
   velocity_equations_.push_back({relation, where});
 }
 
-void Mechanism::choose(const std::string& role, const std::vector<Expression>& symbols, const SourceLocation& where,
-                       std::vector<std::string>& chosen, const std::string& other_role,
-                       const std::vector<std::string>& others) const {
+std::vector<std::string> Mechanism::chosen(Role role, const std::vector<Expression>& symbols, const SourceLocation& where,
+                                           std::vector<std::string> before, const std::vector<std::string>& others) const {
+  const std::string own = to_string(role), other = to_string(role == Role::input ? Role::output : Role::input);
   const std::unordered_set<std::string> taken(others.begin(), others.end());
-  std::unordered_set<std::string> seen(chosen.begin(), chosen.end());
-  std::vector<std::string> result = chosen;
+  std::unordered_set<std::string> seen(before.begin(), before.end());
   for (const Expression& symbol : symbols) {
-    const SourceLocation at = symbol.where_or(where);
+    const auto refuse = [&](const std::string& what, const std::string& problem, const std::string& expectation) {
+      throw ModelError(symbol.where_or(where), "the " + own + " " + in_quotes(what) + " is " + problem, expectation);
+    };
     const std::string expectation = "a variable of the model";
-    if (symbol.kind() != Expression::Kind::symbol) {
-      throw ModelError(at, "the " + role + " " + in_quotes(symbol.text()) + " is not a name", expectation);
-    }
-    if (has_constant(symbol.name()))
-      throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is a constant", expectation);
-    if (find_rate(symbol.name()) >= 0)
-      throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is a rate, whose role is given in [RATES]",
-                       expectation);
+    if (symbol.kind() != Expression::Kind::symbol) refuse(symbol.text(), "not a name", expectation);
+    if (has_constant(symbol.name())) refuse(symbol.name(), "a constant", expectation);
+    if (find_rate(symbol.name()) >= 0) refuse(symbol.name(), "a rate, whose role is given in [RATES]", expectation);
     const Composite* const composite = find_composite(symbol.name());
-    if (!composite && find_coordinate(symbol.name()) < 0)
-      throw ModelError(at, "the " + role + " " + in_quotes(symbol.name()) + " is not declared", expectation);
+    if (!composite && find_coordinate(symbol.name()) < 0) refuse(symbol.name(), "not declared", expectation);
     for (const std::string& name : composite ? composite->components : std::vector{symbol.name()}) {
-      if (!seen.insert(name).second) {
-        throw ModelError(at, "the " + role + " " + in_quotes(name) + " is named twice", "each " + role + " once");
-      }
-      if (taken.contains(name)) {
-        throw ModelError(at, "the " + role + " " + in_quotes(name) + " is already an " + other_role,
-                         "a variable that is not an " + other_role);
-      }
-      result.push_back(name);
+      if (!seen.insert(name).second) refuse(name, "named twice", "each " + own + " once");
+      if (taken.contains(name)) refuse(name, "already an " + other, "a variable that is not an " + other);
+      before.push_back(name);
     }
   }
-  chosen = std::move(result);
+  return before;
 }
 
 void Mechanism::inputs(const std::vector<Expression>& symbols, const SourceLocation& where) {
-  choose("input", symbols, where, inputs_, "output", outputs_);
+  inputs_ = chosen(Role::input, symbols, where, inputs_, outputs_);
   if (inputs_where_.line == 0 && !symbols.empty()) inputs_where_ = symbols[0].where_or(where);
 }
 
 void Mechanism::outputs(const std::vector<Expression>& symbols, const SourceLocation& where) {
-  choose("output", symbols, where, outputs_, "input", inputs_);
+  outputs_ = chosen(Role::output, symbols, where, outputs_, inputs_);
   if (outputs_where_.line == 0 && !symbols.empty()) outputs_where_ = symbols[0].where_or(where);
 }
 
 void Mechanism::replace_outputs(const std::vector<Expression>& symbols, const SourceLocation& where) {
-  std::vector<std::string> chosen;
-  choose("output", symbols, where, chosen, "input", {});
-  std::erase_if(inputs_,
-                [&](const std::string& name) { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); });
-  outputs_ = std::move(chosen);
+  outputs_ = chosen(Role::output, symbols, where, {}, {});
+  std::erase_if(inputs_, [&](const std::string& name) { return std::ranges::find(outputs_, name) != outputs_.end(); });
   outputs_where_ = where;
 }
 
@@ -205,12 +177,9 @@ void Mechanism::limit(const std::string& coordinate, const Expression& lower, co
 }
 
 void Mechanism::set_constant(const std::string& name, const Expression& value) {
-  if (!has_constant(name)) {
-    std::string known;
-    for (const Constant& c : constants_) known += (known.empty() ? "" : ", ") + c.name;
+  if (!has_constant(name))
     throw ModelError({name_, 0, 0}, "there is no constant " + in_quotes(name),
-                     known.empty() ? "a model with constants" : "one of " + known);
-  }
+                     constants_.empty() ? "a model with constants" : "one of " + joined(names_of(constants_)));
   constants_[names_.at(name).index].value = value;
 }
 

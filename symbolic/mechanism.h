@@ -39,8 +39,11 @@ struct Coordinate {
   SourceLocation where;
   bool auxiliary =
       false;  ///< from [DUMMY VARS] or [CARTESIAN VARS]: defined by the others through equations, and of no interest
-  bool has_range = true;   ///< false: a length whose range the equations are to give (found_ranges.h)
+  bool has_range = true;   ///< false: a length whose range the equations are to give (limits.h)
   bool direction = false;  ///< a length without a unit: a component of a Composite
+
+  /// "[0, 2*pi]"
+  std::string range_text() const { return "[" + lower.text() + ", " + upper.text() + "]"; }
 };
 
 /// A coordinate with a range of one value.
@@ -72,6 +75,8 @@ struct Limit {
   std::string coordinate;
   Expression lower, upper;  ///< in constants
   SourceLocation where;
+
+  std::string text() const { return "[" + lower.text() + ", " + upper.text() + "]"; }
 };
 
 /// A component of m, where the mechanism brings its own velocity equation.
@@ -82,6 +87,13 @@ struct Rate {
   SourceLocation where;
 };
 
+/// Of things that have one.
+std::vector<std::string> names_of(const auto& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
+}
+
 class Mechanism {
  public:
   explicit Mechanism(std::string name = "mechanism") : name_(std::move(name)) {}
@@ -89,12 +101,19 @@ class Mechanism {
   /// Each returns the name as an expression, to be used in constraints. Throws ModelError where the name is taken, reserved
   /// or no identifier.
   Expression constant(const std::string& name, const Expression& value, const SourceLocation& where = {});
+  Expression coordinate(const Coordinate& c);
   Expression length(const std::string& name, const Expression& lower, const Expression& upper,
-                    const SourceLocation& where = {});
+                    const SourceLocation& where = {}) {
+    return coordinate({name, CoordinateKind::length, lower, upper, where});
+  }
   Expression angle(const std::string& name, const Expression& lower = -pi(), const Expression& upper = pi(),
-                   const SourceLocation& where = {});
+                   const SourceLocation& where = {}) {
+    return coordinate({name, CoordinateKind::angle, lower, upper, where});
+  }
   /// A length whose range is what the equations say; those of a set throw where they do not bound it.
-  Expression length_without_range(const std::string& name, const SourceLocation& where = {});
+  Expression length_without_range(const std::string& name, const SourceLocation& where = {}) {
+    return coordinate({name, CoordinateKind::length, 0, 0, where, false, false});
+  }
   /// Declare a Composite's coordinates, lengths in [−1, 1], and add its equations. They return the coordinates.
   std::vector<Expression> unit_vector(const std::string& name, const SourceLocation& where = {});
   std::vector<Expression> rotation(const std::string& name, const SourceLocation& where = {});
@@ -180,13 +199,13 @@ class Mechanism {
   /// Registers the name of the next constant, coordinate, composite or rate, where it is free and no reserved word.
   void declare(const std::string& name, Declared kind, const SourceLocation& where);
   int find(const std::string& name, Declared kind) const;
-  Expression coordinate(const Coordinate& c);
   void validate_rates(const ModelValidator& validator) const;
   /// Declares a composite and its coordinates name_suffix.
   std::vector<Expression> compose(Composite::Kind kind, const std::string& name, const std::vector<std::string>& suffixes,
                                   const SourceLocation& where);
-  void choose(const std::string& role, const std::vector<Expression>& symbols, const SourceLocation& where,
-              std::vector<std::string>& chosen, const std::string& other_role, const std::vector<std::string>& others) const;
+  /// Those chosen before and these, which must not be among others.
+  std::vector<std::string> chosen(Role role, const std::vector<Expression>& symbols, const SourceLocation& where,
+                                  std::vector<std::string> before, const std::vector<std::string>& others) const;
 
   std::string name_, source_text_;
   std::vector<Constant> constants_;

@@ -55,9 +55,8 @@ void ExpressionBuilder::sign(SignOf what) {
 void ExpressionBuilder::end_power() {
   Frame& frame = frames_.back();
   Expression result = frame.chain.back().operand;  // x ^ y ^ z is x ^ (y ^ z)
-  for (std::size_t i = frame.chain.size() - 1; i > 0; --i) {
+  for (std::size_t i = frame.chain.size() - 1; i > 0; --i)
     result = pow(frame.chain[i - 1].operand, negated(std::move(result), frame.chain[i].signs));
-  }
   frame.chain.clear();
   result = negated(std::move(result), frame.factor_signs);
   frame.factor_signs = 0;
@@ -84,16 +83,14 @@ std::optional<SourceLocation> ExpressionBuilder::open_parenthesis() const {
 }
 
 void ModelBuilder::finish_variable() {
-  if (kind == CoordinateKind::length && values.empty()) {
-    mechanism.length_without_range(declared, declared_where);
-  } else if (values.empty()) {
-    mechanism.angle(declared, -pi(), pi(), declared_where);
-  } else if (kind == CoordinateKind::length) {
-    mechanism.length(declared, values.at(0), values.at(1), declared_where);
-  } else {
-    mechanism.angle(declared, values.at(0), values.at(1), declared_where);
-  }
-  if (auxiliary) mechanism.mark_auxiliary();
+  const bool has_range = !values.empty(), is_angle = kind == CoordinateKind::angle;
+  const Expression lower = has_range  ? values.at(0)
+                           : is_angle ? -pi()
+                                      : Expression(0),
+                   upper = has_range  ? values.at(1)
+                           : is_angle ? pi()
+                                      : Expression(0);
+  mechanism.coordinate({declared, kind, lower, upper, declared_where, auxiliary, has_range || is_angle});
   values.clear();
 }
 
@@ -126,9 +123,8 @@ void ModelBuilder::finish_point() {
 void ModelBuilder::finish(const SourceLocation& end) {
   const bool is_empty = mechanism.constants().empty() && drawing.empty() && inputs.empty() && outputs.empty();
   const bool has_equations = !mechanism.constraints().empty();
-  if (mechanism.coordinates().empty() && !has_equations && is_empty) {
+  if (mechanism.coordinates().empty() && !has_equations && is_empty)
     throw ModelError(end, "the model is empty", "sections such as [SYSTEM VARS] and [SYSTEM EQS]");
-  }
   if (mechanism.coordinates().empty()) throw ModelError(end, "the model has no variables", "at least one, in [SYSTEM VARS]");
   if (!has_equations && mechanism.rates().empty())
     throw ModelError(end, "the model has no equations", "at least one, in [SYSTEM EQS]");

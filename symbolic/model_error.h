@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace corank::symbolic {
 
@@ -12,13 +13,21 @@ struct SourceLocation {
   int line = 0;    ///< from 1; 0: unknown
   int column = 0;  ///< from 1; 0: unknown
   /// "dextar.cuik:12:7", "dextar.cuik:12", or the file (or "model") alone.
-  std::string text() const;
+  std::string text() const {
+    std::string result = file.empty() ? "model" : file;
+    for (const int number : {line, line > 0 ? column : 0})
+      if (number > 0) result += ':' + std::to_string(number);
+    return result;
+  }
+  friend bool operator==(const SourceLocation&, const SourceLocation&) = default;
 };
 
 /// Bad input. what() is one line: "<place>: <what is wrong>; expected <expectation>".
 class ModelError : public std::runtime_error {
  public:
-  ModelError(SourceLocation where, const std::string& problem, const std::string& expectation = "");
+  ModelError(SourceLocation where, const std::string& problem, const std::string& expectation = "")
+      : std::runtime_error(where.text() + ": " + problem + (expectation.empty() ? "" : "; expected " + expectation)),
+        where_(std::move(where)) {}
   const SourceLocation& where() const { return where_; }
 
  private:

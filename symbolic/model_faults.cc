@@ -14,7 +14,7 @@ const char* const kOperand = "a number, a name, a function or '('";
 template <typename Rule>
 std::size_t match_length(std::string_view text) {
   tao::pegtl::memory_input<> in(text.data(), text.data() + text.size(), "");
-  return tao::pegtl::parse<Rule>(in) ? static_cast<std::size_t>(in.current() - text.data()) : 0;
+  return tao::pegtl::parse<Rule>(in) ? in.current() - text.data() : 0;
 }
 
 std::string hexadecimal(char c) {
@@ -74,9 +74,8 @@ void Fault::no_equation_end() const {
         "';' at the end of each equation");
   }
   const bool next_thing = rest.empty() || rest[0] == '[' || match_length<grammar::identifier>(rest) > 0;
-  if (next_thing && builder.token_end.line < where.line) {
+  if (next_thing && builder.token_end.line < where.line)
     say_behind_last_operand("the equation has no ';' at its end", "an operator or ';'");
-  }
   if (rest.empty()) say("the equation has no ';' at its end", "an operator or ';'");
   found_instead_of("an operator, or ';' at the end of the equation");
 }

@@ -19,17 +19,6 @@ struct Action : ExpressionAction<Rule> {};
 #define CORANK_ACTION(rule, ...) CORANK_ACTION_OF(Action, ModelBuilder, rule, __VA_ARGS__)
 #define CORANK_ACTION0(rule, ...) CORANK_ACTION0_OF(Action, ModelBuilder, rule, __VA_ARGS__)
 
-template <typename ActionInput>
-void declare(const ActionInput& in, ModelBuilder& b) {
-  b.declared = in.string();
-  b.declared_where = place(in, b);
-}
-
-CORANK_ACTION(section_title, {
-  b.section_title = in.string();
-  b.section_where = place(in, b);
-  b.section_where.column -= 1;  // the bracket
-})
 CORANK_ACTION(constant_name, { declare(in, b); })
 CORANK_ACTION0(constant_end, {
   b.mechanism.constant(b.declared, b.values.at(0), b.declared_where);
@@ -118,10 +107,9 @@ struct Control : peg::normal<Rule> {
 /// Returns the place of the text's end.
 template <typename Rule>
 SourceLocation parse_text(std::string_view text, ModelBuilder& builder) {
-  if (text.size() > kMaxFileBytes) {
+  if (text.size() > kMaxFileBytes)
     throw ModelError({builder.file, 0, 0}, "the text has " + std::to_string(text.size()) + " bytes",
                      "at most " + std::to_string(kMaxFileBytes));
-  }
   TextInput plain(text.data(), text.data() + text.size(), "");
   peg::parse<grammar::plain_text, peg::nothing, Control>(plain, builder);
   TextInput in(text.data(), text.data() + text.size(), "");

@@ -1,5 +1,4 @@
-#include "corank/symbolic/model_text.h"
-
+// A mechanism as text of the model language.
 #include <algorithm>
 #include <map>
 #include <span>
@@ -7,6 +6,7 @@
 #include "corank/core/check.h"
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/line_breaks.h"
+#include "corank/symbolic/printer.h"
 
 namespace corank::symbolic {
 namespace {
@@ -17,16 +17,10 @@ std::size_t widest(const auto& named) {
   return width;
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
 std::string place(const std::vector<Expression>& coordinates) {
   std::vector<std::string> texts;
   for (const Expression& e : coordinates) texts.push_back(e.text());
-  return "(" + joined(texts, ", ") + ")";
+  return "(" + joined(texts) + ")";
 }
 
 bool begins_with(std::span<const std::string> names, const std::vector<std::string>& first) {
@@ -52,8 +46,7 @@ class Writer {
     if (!mechanism_.inputs().empty()) out_ += "\n[INPUTS]   " + chosen(mechanism_.inputs());
     if (!mechanism_.outputs().empty())
       out_ += (mechanism_.inputs().empty() ? "\n" : "") + ("[OUTPUTS]  " + chosen(mechanism_.outputs()));
-    for (const Limit& l : mechanism_.limits())
-      line("[LIMITS]", padded(l.coordinate, widest_limit()) + " : [" + l.lower.text() + ", " + l.upper.text() + "]");
+    for (const Limit& l : mechanism_.limits()) line("[LIMITS]", padded(l.coordinate, widest_limit()) + " : " + l.text());
     write_drawing();
     return out_;
   }
@@ -90,7 +83,7 @@ class Writer {
         continue;
       }
       line(section, padded(c.name, width) + (c.kind == CoordinateKind::angle ? " ~" : " :") +
-                        (c.has_range ? " [" + c.lower.text() + ", " + c.upper.text() + "]" : ""));
+                        (c.has_range ? " " + c.range_text() : ""));
     }
   }
 
@@ -120,7 +113,7 @@ class Writer {
         words.push_back(names[i]);
       }
     }
-    return joined(words, ", ") + "\n";
+    return joined(words) + "\n";
   }
 
   void write_drawing() {

@@ -167,10 +167,9 @@ ModelValidator::Size ModelValidator::check(const Expression& e, const Context& c
     first = false;
   }
   if (e.kind() == Kind::function) size.degree = 1;  // stays symbolic
-  if (size.degree > kMaxDegree) {
+  if (size.degree > kMaxDegree)
     throw ModelError(e.where_or(context.where), "the powers in " + context.owner + " are too large",
                      "a degree of at most 100000");
-  }
   return size;
 }
 
@@ -218,10 +217,9 @@ ModelValidator::Size ModelValidator::check_power(const Expression& e, const Cont
   }
   // An unknown in the exponent is for the algebrizer to refuse.
   const double degree = base.degree * (exponent.constant ? std::max(1.0, static_cast<double>(magnitude)) : 1.0);
-  if (degree > kMaxDegree) {
+  if (degree > kMaxDegree)
     throw ModelError(e.where_or(context.where), "the powers in " + context.owner + " are too large",
                      "a degree of at most 100000");
-  }
   return {degree, base.constant && exponent.constant, std::pow(base.value, exponent.value)};
 }
 

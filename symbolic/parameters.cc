@@ -8,10 +8,12 @@
 
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
+#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/expression_words.h"
-#include "corank/symbolic/found_ranges.h"
-#include "corank/symbolic/node_system.h"
+#include "corank/symbolic/kernel_scale.h"
+#include "corank/symbolic/limits.h"
 
 namespace corank::symbolic {
 namespace {
@@ -200,6 +202,16 @@ class Family {
   std::map<std::string, Interval> ranges_;
 };
 
+TrigonometricSystem equations_of(const Mechanism& mechanism, const FamilyQuestion& q) {
+  if (!q.set) return plain_system(mechanism);
+  const SetDefinition& set = definition(q.set);
+  if (set.of_parts || set.type)
+    throw ModelError({mechanism.name(), 0, 0}, std::string("the set ") + set.name + " cannot be counted",
+                     "a set of one system, such as cspace, forward or forward-cusps");
+  // Passive rates stay: by how much their scales bound them depends on the constants.
+  return singularity_system(mechanism, *q.set, q.kernel, kernel_scales(mechanism, *q.set, q.kernel), q.corank);
+}
+
 }  // namespace
 
 void check_conditions(const Mechanism& mechanism, const std::vector<Condition>& conditions,
@@ -224,6 +236,14 @@ std::vector<int> mark_parameters(const ParametricSystem& system, System& polynom
     v.lower_implied = v.upper_implied = true;
   }
   return indices;
+}
+
+FamilySystem family_system(const Mechanism& mechanism, const FamilyQuestion& question) {
+  const ParametricSystem parametric =
+      with_parameters(mechanism, equations_of(mechanism, question), question.over, question.fixed);
+  FamilySystem family{algebrize(parametric.system), {}, parametric.copies};
+  family.parameters = mark_parameters(parametric, family.system);
+  return family;
 }
 
 }  // namespace corank::symbolic

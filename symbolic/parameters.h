@@ -1,6 +1,8 @@
-// A family of systems: constants and coordinates that run through ranges, the parameters, as unknowns of one system.
+// A family of systems: constants and coordinates that run through ranges, the parameters, as unknowns of one system, which is a
+// set's, or a plain one.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,5 +51,23 @@ ParametricSystem with_parameters(const Mechanism& mechanism, TrigonometricSystem
 
 /// The variables of algebrize(system.system) that are its parameters; their ends are marked as no ends of the domain.
 std::vector<int> mark_parameters(const ParametricSystem& system, System& polynomials);
+
+/// Which family of a mechanism.
+struct FamilyQuestion {
+  std::optional<SingularitySet> set{};  ///< nothing: the model's own equations
+  std::optional<KernelSide> kernel{};
+  int corank = 1;
+  std::vector<Parameter> over;
+  std::vector<FixedCoordinate> fixed{};
+};
+
+struct FamilySystem {
+  System system;
+  std::vector<int> parameters;  ///< variables of the system, in the order of FamilyQuestion::over
+  int copies = 1;               ///< as ParametricSystem's
+};
+
+/// Throws ModelError as with_parameters does, and for a set of parts or of a type.
+FamilySystem family_system(const Mechanism& mechanism, const FamilyQuestion& question);
 
 }  // namespace corank::symbolic

@@ -31,6 +31,10 @@ auto PolynomialExpander::guarded(const Expression& e, Compute&& compute) const {
   }
 }
 
+const ConstantValue& PolynomialExpander::define(const Constant& c) {
+  return constants_.insert_or_assign(c.name, constant(c.value, "the constant " + in_quotes(c.name), c.where)).first->second;
+}
+
 ConstantValue PolynomialExpander::constant(const Expression& e, const std::string& what, const SourceLocation& where) {
   const ExpandedPolynomial result = polynomial(e, what, where);
   if (const auto number = result.constant()) return *number;

@@ -18,7 +18,8 @@ class PolynomialExpander {
   /// Largest exponent of an unknown and largest multiple of an angle.
   static constexpr int kMaxExponent = 64;
 
-  void add_constant(const std::string& name, ConstantValue value) { constants_.insert_or_assign(name, std::move(value)); }
+  /// A constant, in numbers and those defined before. Returns its value.
+  const ConstantValue& define(const Constant& constant);
   void add_unknown(const std::string& name, int variable) { unknowns_.emplace(name, variable); }
   void add_angle(const std::string& name, int cosine, int sine) { angles_.emplace(name, AngleVariables{cosine, sine}); }
   /// An angle of one value. It may stand where an angle may, and counts as that constant.

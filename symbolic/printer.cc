@@ -96,7 +96,7 @@ std::vector<std::pair<std::string, std::string>> relation_lines(
 }
 
 std::string range_line(const Coordinate& c) {
-  return "  " + c.name + (c.kind == CoordinateKind::angle ? " ~ [" : " : [") + c.lower.text() + ", " + c.upper.text() + "]" +
+  return "  " + c.name + (c.kind == CoordinateKind::angle ? " ~ " : " : ") + c.range_text() +
          (c.has_range ? "" : "   % found from the equations") + "\n";
 }
 
@@ -122,14 +122,11 @@ struct Comparison {
 };
 
 Comparison compare(const std::vector<TrigonometricSystem::Equation>& first, const TrigonometricSystem& system) {
-  const auto same = [](const Relation& a, const Relation& b) {
-    return a.kind == b.kind && same_tree(a.lhs, b.lhs) && same_tree(a.rhs, b.rhs);
-  };
   Comparison result;
   std::size_t next = 0;
   for (const TrigonometricSystem::Equation& e : relations(system)) {
     std::size_t k = next;
-    while (k < first.size() && !same(first[k].relation, e.relation)) ++k;
+    while (k < first.size() && !same_relation(first[k].relation, e.relation)) ++k;
     if (k == first.size()) {
       result.own.push_back(e);
     } else {

@@ -54,7 +54,7 @@ struct SetDefinition {
   const char* also_matrix = "";
   /// The set is that of a type: of the kernel's configurations those where the type is not excluded.
   std::optional<SingularityType> type{};
-  LocusPart part = LocusPart::all;  ///< cusps and nodes: cusp_system.h, node_system.h
+  LocusPart part = LocusPart::all;  ///< cusps and nodes: cusps_and_nodes.h
 
   /// Its result consists of parts, each the solutions of a system of its own (boundary.h).
   bool of_parts = false;

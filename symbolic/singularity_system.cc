@@ -4,13 +4,12 @@
 #include <array>
 #include <filesystem>
 #include <ranges>
+#include <utility>
 
-#include "corank/symbolic/cusp_system.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 #include "corank/symbolic/expression_words.h"
-#include "corank/symbolic/found_ranges.h"
 #include "corank/symbolic/kernel_vector.h"
 #include "corank/symbolic/limits.h"
-#include "corank/symbolic/node_system.h"
 
 namespace corank::symbolic {
 namespace {
@@ -99,18 +98,16 @@ void check_chosen(const Mechanism& mechanism, const VelocityEquation& velocity, 
 void check_whole(const Mechanism& mechanism, const VelocityEquation& velocity, const std::string& name, KernelSide side) {
   const std::size_t equations = velocity.matrix.rows.size(), columns = velocity.matrix.columns.size();
   const Counted words = words_for(velocity);
-  if (equations > columns) {
+  if (equations > columns)
     throw ModelError(model_place(mechanism),
                      "the mechanism has " + count(columns, words.column) + " and " + count(equations, words.row) + ", so " +
                          name + " never has full row rank",
                      "at most as many " + words.row + "s as " + words.column + "s");
-  }
-  if (side == KernelSide::right && equations < columns) {
+  if (side == KernelSide::right && equations < columns)
     throw ModelError(model_place(mechanism),
                      name + " has " + count(equations, "row") + " and " + count(columns, "column") +
                          ", so every configuration has a right kernel",
                      "the left kernel");
-  }
 }
 
 // A matrix that is not square has one kernel everywhere; the other tells where it loses rank.
@@ -145,6 +142,28 @@ KernelSide side_of(const Mechanism& mechanism, const KernelQuestion& kernel, std
   return only;
 }
 
+// About the columns that are left where those of these roles are locked.
+KernelQuestion question_of(const Mechanism& mechanism, const VelocityEquation& velocity, const SetDefinition& set,
+                           std::span<const Role> locked, const std::string& name, std::optional<KernelSide> side) {
+  KernelQuestion kernel{set, name, velocity.without(locked), velocity.where, {}, {}};
+  const std::vector<std::size_t> ties = velocity.ties(locked);
+  if (locked.empty()) {
+    check_whole(mechanism, velocity, kernel.name, side.value_or(set.side));
+  } else {
+    check_chosen(mechanism, velocity, set);
+  }
+  if (kernel.matrix.columns.empty())
+    throw ModelError(model_place(mechanism),
+                     "there are no passive " + words_for(velocity).column + "s, so " + name + " has no columns",
+                     "passive " + words_for(velocity).column + "s");
+  kernel.side = side_of(mechanism, kernel, ties.size(), side);
+  // Lemma (doc/theory.md): a matrix and the same without rows of zeros have the same right kernel, which passes them over; a
+  // left one would have an unknown that nothing is asked of.
+  if (kernel.side == KernelSide::right) return kernel;
+  kernel.drop(ties);
+  return kernel;
+}
+
 constexpr const char* kStem = "xi";
 
 // Component i of a_j, of several vectors: 3/100 more than the inverse of i + 29 j + 1 modulo 97, in hundredths. The sequence
@@ -163,19 +182,17 @@ Expression generic_component_of(std::size_t j, std::size_t i) {
 std::vector<std::vector<Expression>> add_unknowns(TrigonometricSystem& system, const Mechanism& mechanism,
                                                   const KernelQuestion& kernel, const std::string& stem) {
   const std::size_t n = kernel.side == KernelSide::right ? kernel.matrix.columns.size() : kernel.matrix.rows.size();
-  if (system.corank < 1 || static_cast<std::size_t>(system.corank) > n) {
+  if (system.corank < 1 || std::cmp_greater(system.corank, n))
     throw ModelError(model_place(mechanism),
                      "a corank of " + std::to_string(system.corank) + ", but a kernel vector of " + kernel.name + " has " +
                          count(n, "component"),
                      "a corank from 1 to " + std::to_string(n));
-  }
   const bool second = stem != kStem;
   std::vector<std::string>& unknowns = second ? system.second_unknowns : system.kernel_unknowns;
   unknowns = kernel_names(mechanism, n, system.corank, stem);
-  if (!second && !system.kernel_scales.empty() && system.kernel_scales.size() != n) {
+  if (!second && !system.kernel_scales.empty() && system.kernel_scales.size() != n)
     throw ModelError(model_place(mechanism), std::to_string(system.kernel_scales.size()) + " scales of the kernel vector",
                      std::to_string(n));
-  }
   std::vector<std::vector<Expression>> xi;
   for (auto first = unknowns.begin(); first != unknowns.end(); first += n) xi.push_back(symbols({first, first + n}));
   return xi;
@@ -205,8 +222,8 @@ void add_normalization(TrigonometricSystem& system, const SourceLocation& where,
 // How a row came about, behind its name.
 std::string words(const PassiveRates::RowNote& note) {
   std::string text;
-  for (const std::string& rate : note.free_of) text += (text.empty() ? "" : ", ") + rate;
-  if (!text.empty()) text = ", without the rate" + std::string(note.free_of.size() > 1 ? "s" : "") + " of " + text;
+  if (const std::size_t n = note.free_of.size())
+    text = std::string(", without the rate") + (n > 1 ? "s" : "") + " of " + joined(note.free_of);
   return note.gives.empty() ? text : text + ", gives the rate of " + note.gives;
 }
 
@@ -250,10 +267,6 @@ Relation AngleTie::relation() const {
   return Expression::symbol(angle) == Expression((sign < 0 ? "-" : "") + other + kOffsets[quarters]);
 }
 
-std::vector<Expression> kernel_components(const TrigonometricSystem& system) {
-  return scaled(system.kernel_unknowns, system.kernel_scales);
-}
-
 TrigonometricSystem plain_system(const Mechanism& mechanism) {
   mechanism.validate();
   TrigonometricSystem system;
@@ -281,32 +294,6 @@ TrigonometricSystem plain_system(const Mechanism& mechanism) {
   return system;
 }
 
-namespace {
-
-// About the columns that are left where those of these roles are locked.
-KernelQuestion question_of(const Mechanism& mechanism, const VelocityEquation& velocity, const SetDefinition& set,
-                           std::span<const Role> locked, const std::string& name, std::optional<KernelSide> side) {
-  KernelQuestion kernel{set, name, velocity.without(locked), velocity.where, {}, {}};
-  const std::vector<std::size_t> ties = velocity.ties(locked);
-  if (locked.empty()) {
-    check_whole(mechanism, velocity, kernel.name, side.value_or(set.side));
-  } else {
-    check_chosen(mechanism, velocity, set);
-  }
-  if (kernel.matrix.columns.empty())
-    throw ModelError(model_place(mechanism),
-                     "there are no passive " + words_for(velocity).column + "s, so " + name + " has no columns",
-                     "passive " + words_for(velocity).column + "s");
-  kernel.side = side_of(mechanism, kernel, ties.size(), side);
-  // Lemma (doc/theory.md): a matrix and the same without rows of zeros have the same right kernel, which passes them over; a
-  // left one would have an unknown that nothing is asked of.
-  if (kernel.side == KernelSide::right) return kernel;
-  kernel.drop(ties);
-  return kernel;
-}
-
-}  // namespace
-
 void KernelQuestion::drop(const std::vector<std::size_t>& rows) {
   dropped = rows;
   for (const std::size_t row : rows | std::views::reverse) {
@@ -318,7 +305,8 @@ void KernelQuestion::drop(const std::vector<std::size_t>& rows) {
 KernelQuestion kernel_question(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
   const VelocityEquation velocity = derive(mechanism).velocity;
   const SetDefinition& asked = definition(set);
-  KernelQuestion kernel = question_of(mechanism, velocity, asked, asked.locked, matrix_name(asked, velocity), side);
+  const char* const name = velocity.given && asked.locked.empty() ? "L" : asked.matrix;
+  KernelQuestion kernel = question_of(mechanism, velocity, asked, asked.locked, name, side);
   if (!asked.also_locked.empty())
     kernel.also.push_back(question_of(mechanism, velocity, asked, asked.also_locked, asked.also_matrix, std::nullopt));
   return kernel;

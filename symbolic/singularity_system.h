@@ -105,9 +105,6 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
 TrigonometricSystem singularity_system(const Mechanism& mechanism, const KernelQuestion& kernel,
                                        const std::vector<std::string>& scales, int corank);
 
-/// s_j ξ_j of each kernel unknown of a system: the rate, or of a left kernel the multiplier, itself.
-std::vector<Expression> kernel_components(const TrigonometricSystem& system);
-
 /// The equations and inequalities of the model itself, nothing added (a plain system, or C-space).
 TrigonometricSystem plain_system(const Mechanism& mechanism);
 

@@ -27,7 +27,7 @@ std::string read_bytes(const std::filesystem::path& path, std::size_t most) {
     const std::size_t before = text.size(), wanted = std::min(kBlock, most - before);
     text.resize(before + wanted);
     in.read(text.data() + before, static_cast<std::streamsize>(wanted));
-    text.resize(before + static_cast<std::size_t>(in.gcount()));
+    text.resize(before + in.gcount());
   }
   if (in.bad()) throw ReadingError("the file cannot be read");
   return text;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/block_triangular.h"
+#include "corank/symbolic/exact_matrix.h"
 
 namespace corank::symbolic {
 namespace {

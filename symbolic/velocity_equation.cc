@@ -18,38 +18,6 @@ bool is_zero(const Expression& e) { return same_tree(e, Expression(0)); }
 // lhs − rhs as written.
 Expression residual(const Relation& relation) { return is_zero(relation.rhs) ? relation.lhs : relation.lhs - relation.rhs; }
 
-}  // namespace
-
-ExpressionMatrix VelocityEquation::without(std::span<const Role> locked) const {
-  ExpressionMatrix result;
-  result.rows.resize(matrix.rows.size());
-  for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
-    if (contains(locked, matrix.roles[j])) continue;
-    result.columns.push_back(matrix.columns[j]);
-    result.roles.push_back(matrix.roles[j]);
-    for (std::size_t i = 0; i < matrix.rows.size(); ++i) result.rows[i].push_back(matrix.rows[i][j]);
-  }
-  return result;
-}
-
-std::vector<std::size_t> VelocityEquation::ties(std::span<const Role> locked) const {
-  const ExpressionMatrix left = without(locked);
-  std::vector<std::size_t> rows;
-  if (left.columns.empty() || left.columns.size() == matrix.columns.size()) return rows;
-  for (std::size_t i = 0; i < left.rows.size(); ++i)
-    if (std::all_of(left.rows[i].begin(), left.rows[i].end(), is_zero)) rows.push_back(i);
-  return rows;
-}
-
-std::vector<std::string> VelocityEquation::names_of(Role role) const {
-  std::vector<std::string> names;
-  for (std::size_t j = 0; j < matrix.roles.size(); ++j)
-    if (matrix.roles[j] == role) names.push_back(matrix.columns[j]);
-  return names;
-}
-
-namespace {
-
 GiNaC::ex difference(const GinacBridge& bridge, const Constraint& constraint) {
   return bridge.to_ginac(constraint.relation.lhs, constraint.where) -
          bridge.to_ginac(constraint.relation.rhs, constraint.where);
@@ -116,9 +84,7 @@ void add_row(const GinacBridge& bridge, const GiNaC::ex& e, const Constraint& co
 }
 
 void add_given_rows(const Mechanism& mechanism, VelocityEquation& velocity) {
-  std::vector<std::string> constants, names;
-  for (const Constant& c : mechanism.constants()) constants.push_back(c.name);
-  for (const Coordinate& c : mechanism.coordinates()) names.push_back(c.name);
+  std::vector<std::string> names = names_of(mechanism.coordinates());
   for (const Rate& r : mechanism.rates()) {
     velocity.matrix.columns.push_back(r.name);
     velocity.matrix.roles.push_back(r.role);
@@ -126,7 +92,7 @@ void add_given_rows(const Mechanism& mechanism, VelocityEquation& velocity) {
   }
   velocity.given = true;
   check_size(mechanism.velocity_equations().size(), velocity.matrix.columns.size(), mechanism);
-  const GinacBridge bridge(constants, names);
+  const GinacBridge bridge(names_of(mechanism.constants()), names);
   for (const Constraint& c : mechanism.velocity_equations()) add_row(bridge, difference(bridge, c), c, velocity);
 }
 
@@ -136,9 +102,7 @@ bool derives_alike(const Mechanism& a, const Mechanism& b) {
     return std::equal(x.begin(), x.end(), y.begin(), y.end(), alike);
   };
   const auto equations = [](const Constraint& x, const Constraint& y) {
-    return x.relation.kind == y.relation.kind && x.where.line == y.where.line && x.where.column == y.where.column &&
-           x.where.file == y.where.file && same_tree(x.relation.lhs, y.relation.lhs) &&
-           same_tree(x.relation.rhs, y.relation.rhs);
+    return x.where == y.where && same_relation(x.relation, y.relation);
   };
   return same(a.constants(), b.constants(), [](const Constant& x, const Constant& y) { return x.name == y.name; }) &&
          same(a.coordinates(), b.coordinates(),
@@ -179,7 +143,47 @@ Derivation derived(const Mechanism& mechanism) {
   return result;
 }
 
+Derivatives derivatives_of(const GinacBridge& bridge, const GiNaC::ex& f, const std::vector<std::string>& coordinates) {
+  Derivatives d;
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    const GiNaC::ex first = f.diff(bridge.symbol(coordinates[j]));
+    d.first.push_back(bridge.to_expression(first));
+    std::vector<Expression>& row = d.second.emplace_back();
+    for (std::size_t k = j; k < coordinates.size(); ++k)
+      row.push_back(bridge.to_expression(first.diff(bridge.symbol(coordinates[k]))));
+  }
+  return d;
+}
+
 }  // namespace
+
+ExpressionMatrix VelocityEquation::without(std::span<const Role> locked) const {
+  ExpressionMatrix result;
+  result.rows.resize(matrix.rows.size());
+  for (std::size_t j = 0; j < matrix.columns.size(); ++j) {
+    if (contains(locked, matrix.roles[j])) continue;
+    result.columns.push_back(matrix.columns[j]);
+    result.roles.push_back(matrix.roles[j]);
+    for (std::size_t i = 0; i < matrix.rows.size(); ++i) result.rows[i].push_back(matrix.rows[i][j]);
+  }
+  return result;
+}
+
+std::vector<std::size_t> VelocityEquation::ties(std::span<const Role> locked) const {
+  const ExpressionMatrix left = without(locked);
+  std::vector<std::size_t> rows;
+  if (left.columns.empty() || left.columns.size() == matrix.columns.size()) return rows;
+  for (std::size_t i = 0; i < left.rows.size(); ++i)
+    if (std::all_of(left.rows[i].begin(), left.rows[i].end(), is_zero)) rows.push_back(i);
+  return rows;
+}
+
+std::vector<std::string> VelocityEquation::names_of(Role role) const {
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < matrix.roles.size(); ++j)
+    if (matrix.roles[j] == role) names.push_back(matrix.columns[j]);
+  return names;
+}
 
 // The same equations are asked for again and again while a question is answered, and GiNaC takes its time.
 Derivation derive(const Mechanism& mechanism) {
@@ -194,22 +198,6 @@ Derivation derive(const Mechanism& mechanism) {
   if (remembered.size() > kRemembered) remembered.pop_back();
   return result;
 }
-
-namespace {
-
-Derivatives derivatives_of(const GinacBridge& bridge, const GiNaC::ex& f, const std::vector<std::string>& coordinates) {
-  Derivatives d;
-  for (std::size_t j = 0; j < coordinates.size(); ++j) {
-    const GiNaC::ex first = f.diff(bridge.symbol(coordinates[j]));
-    d.first.push_back(bridge.to_expression(first));
-    std::vector<Expression>& row = d.second.emplace_back();
-    for (std::size_t k = j; k < coordinates.size(); ++k)
-      row.push_back(bridge.to_expression(first.diff(bridge.symbol(coordinates[k]))));
-  }
-  return d;
-}
-
-}  // namespace
 
 std::vector<Expression> residuals(const Mechanism& mechanism) {
   std::vector<Expression> phi;
@@ -241,10 +229,6 @@ std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vect
   for (const Expression& function : functions)
     result.push_back(derivatives_of(bridge, bridge.to_ginac(function, function.where()), coordinates));
   return result;
-}
-
-std::string matrix_name(const SetDefinition& set, const VelocityEquation& velocity) {
-  return velocity.given && set.locked.empty() ? "L" : set.matrix;
 }
 
 Role role_of(const Mechanism& mechanism, const std::string& coordinate) {

@@ -62,9 +62,6 @@ std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vect
 std::vector<Derivatives> derivatives(const Mechanism& mechanism, const std::vector<std::string>& coordinates,
                                      const std::vector<Expression>& functions);
 
-/// What the matrix of a set's kernel is called: "L_y"; of all of L "Phi_q", or "L" where it is given.
-std::string matrix_name(const SetDefinition& set, const VelocityEquation& velocity);
-
 /// Of a coordinate, as [INPUTS] and [OUTPUTS] name them.
 Role role_of(const Mechanism& mechanism, const std::string& coordinate);
 /// The inputs or the outputs.

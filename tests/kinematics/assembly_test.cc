@@ -7,7 +7,7 @@
 #include "corank/kinematics/part_file.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/model_text.h"
+#include "corank/symbolic/printer.h"
 #include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {

@@ -1,5 +1,5 @@
 // Arms by rows of Denavit and Hartenberg: forward kinematics of the assembled robot against products of the rows' matrices.
-#include "corank/kinematics/denavit_hartenberg.h"
+#include "corank/kinematics/part_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "corank/kinematics/part_file.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/model_text.h"
+#include "corank/symbolic/printer.h"
 #include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "corank/symbolic/block_triangular.h"
+#include "corank/symbolic/exact_matrix.h"
 #include "corank/symbolic/model_error.h"
 #include "corank/tests/symbolic/evaluate.h"
 

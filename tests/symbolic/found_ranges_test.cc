@@ -1,5 +1,5 @@
 // Ranges that are left out: found where the equations give them, asked for where they do not.
-#include "corank/symbolic/found_ranges.h"
+#include "corank/symbolic/limits.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/model_text.h"
+#include "corank/symbolic/printer.h"
 #include "corank/symbolic/set_parts.h"
 
 namespace corank::symbolic {

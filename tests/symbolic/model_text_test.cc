@@ -1,5 +1,5 @@
 // A mechanism's text reads back as the same mechanism: the repository's models, and random ones.
-#include "corank/symbolic/model_text.h"
+#include "corank/symbolic/printer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "corank/result/sentences.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
-#include "corank/symbolic/regular_locus.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 #include "corank/tests/models/cusps/asking.h"
 
 namespace corank::test {
