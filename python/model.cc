@@ -7,9 +7,9 @@
 #include "corank/report/set_look.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/printer.h"
-#include "corank/symbolic/cusps_and_nodes.h"
 
 namespace corank::python {
 namespace {

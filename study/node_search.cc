@@ -3,8 +3,8 @@
 #include "corank/certify/pairs.h"
 #include "corank/core/check.h"
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/cusps_and_nodes.h"
+#include "corank/symbolic/kernel_scale.h"
 
 namespace corank::study {
 namespace {

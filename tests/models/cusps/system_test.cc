@@ -3,8 +3,8 @@
 
 #include "corank/result/sentences.h"
 #include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
 #include "corank/symbolic/cusps_and_nodes.h"
+#include "corank/symbolic/kernel_scale.h"
 #include "corank/tests/models/cusps/asking.h"
 
 namespace corank::test {
