@@ -37,9 +37,9 @@ struct AspectCusps {
 };
 
 /// Of pieces that are exact, of cells whose functions are all the loci's factors. The cusps are searched for
-/// (symbolic/cusps_and_nodes.h). Theorem: let one function g of the locus alone be 0 at the cusp. All points of C-space near it
-/// lie in the cells that its box meets; where all parts of these with the signs of one side are of one piece, that side is
-/// of it. Which side is which says the sign of symbolic::cusp_sides().
+/// (symbolic/cusps_and_nodes.h). Theorem: let one function g of the locus alone be 0 at the cusp. All points of C-space
+/// near it lie in the cells that its box meets; where all parts of these with the signs of one side are of one piece, that
+/// side is of it. Which side is which says the sign of symbolic::cusp_sides().
 AspectCusps aspect_cusps(const study::Question& question, const symbolic::Loci& loci, SignCells& cells, const Pieces& pieces,
                          int threads, solve::Control& control);
 

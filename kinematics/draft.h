@@ -215,8 +215,8 @@ class Drafter {
   std::size_t group(std::size_t body) const { return bodies_.group[body]; }
   const std::string& name_of(std::size_t body) const { return robot_.links[bodies_.link_of(body)].name; }
 
-  /// Poses of links and values of joints, for whoever wants to know them of a solution. In the world: image(body, vector) and
-  /// place(body, point); angle(joint): cosine and sine, where a revolute joint has no coordinate.
+  /// Poses of links and values of joints, for whoever wants to know them of a solution. In the world: image(body, vector)
+  /// and place(body, point); angle(joint): cosine and sine, where a revolute joint has no coordinate.
   void report(const std::vector<std::optional<ex>>& coordinates, auto&& image, auto&& place, auto&& angle) {
     for (std::size_t l = 0; l < robot_.links.size(); ++l) {
       const Placement& at = bodies_.placement[l];

@@ -30,9 +30,9 @@ LegsInOnePiece legs_in_one_piece(const Robot& robot);
 /// direction, all sliding ones are perpendicular to it.
 std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& algebra);
 
-/// Of a robot in a plane. Each group of bodies has an absolute angle, or the angle of the joint that carries it; a loop closes
-/// by two equations. Velocities are the derivatives of these: L = Φ_q. Throws ModelError where the robot can't be assembled,
-/// or an output means nothing in a plane.
+/// Of a robot in a plane. Each group of bodies has an absolute angle, or the angle of the joint that carries it; a loop
+/// closes by two equations. Velocities are the derivatives of these: L = Φ_q. Throws ModelError where the robot can't be
+/// assembled, or an output means nothing in a plane.
 void draft_planar(const Robot& robot, const Bodies& bodies, const std::vector<Vec>& normals, Algebra& algebra, Draft& draft);
 
 /// Of a robot in space.
@@ -42,12 +42,12 @@ void draft_planar(const Robot& robot, const Bodies& bodies, const std::vector<Ve
 /// others are combinations of the three. Positions are eliminated through a spanning tree; a loop closes by three equations
 /// between directions, a rod by one. So there are as many equations as coordinates, less the mobility.
 ///
-/// Velocities are twists (Davies 1981; Zlatanov, Fenton, Benhabib 1994): a loop's rates times its screws add up to zero; rows
-/// that can never hold anything are left out. Where two rods are taken together (rods.h) and all inputs and outputs are
-/// coordinates, velocities are those of the equations.
+/// Velocities are twists (Davies 1981; Zlatanov, Fenton, Benhabib 1994): a loop's rates times its screws add up to zero;
+/// rows that can never hold anything are left out. Where two rods are taken together (rods.h) and all inputs and outputs
+/// are coordinates, velocities are those of the equations.
 ///
-/// Returns whether it is a spherical one: all of its loops close wherever its bodies are turned to, since all axes go through
-/// one point. `deep`: of the spanning tree. Throws ModelError where the robot can't be assembled.
+/// Returns whether it is a spherical one: all of its loops close wherever its bodies are turned to, since all axes go
+/// through one point. `deep`: of the spanning tree. Throws ModelError where the robot can't be assembled.
 bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft, bool deep = false);
 
 /// What a report draws of a robot: its links between their joints, its shapes; points move as the rates say.

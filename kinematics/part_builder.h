@@ -35,7 +35,8 @@ Pose dh_pose(DhConvention convention, const DhRow& row);
 /// coordinate counts from where dh_pose() has the frames.
 std::array<JointEnd, 2> dh_ends(DhConvention convention, const DhRow& row, int sense);
 
-/// A body in Geomview's OFF and COFF formats, as far as a robot needs it: vertices, which joints may name by number, and faces.
+/// A body in Geomview's OFF and COFF formats, as far as a robot needs it: vertices, which joints may name by number, and
+/// faces.
 struct OffBody {
   std::vector<Vector> vertices;  ///< exactly as written
   std::vector<std::vector<std::size_t>> faces;

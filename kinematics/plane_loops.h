@@ -12,8 +12,8 @@
 
 namespace corank::kinematics {
 
-/// Loops with one direction of axes that hang together. Frames and SpatialRobot fill in how its bodies lie, from the one that
-/// carries the others.
+/// Loops with one direction of axes that hang together. Frames and SpatialRobot fill in how its bodies lie, from the one
+/// that carries the others.
 struct PlanePart : Plane {
   struct Rate {
     std::size_t joint;  ///< in Bodies::joints

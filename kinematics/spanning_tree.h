@@ -26,8 +26,8 @@ struct SpanningTree {
 SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra, const std::vector<int>& order,
                            bool deep = false);
 
-/// A link with two passive revolute joints and nothing else, whose axes meet in one point at an angle. What it carries turns as
-/// on a universal joint whose axes make that angle, so its own rates need not be unknowns.
+/// A link with two passive revolute joints and nothing else, whose axes meet in one point at an angle. What it carries
+/// turns as on a universal joint whose axes make that angle, so its own rates need not be unknowns.
 struct Dyad {
   std::size_t link = 0;          ///< a body
   TreeEdge inner;                ///< by which the tree reaches it

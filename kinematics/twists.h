@@ -7,9 +7,9 @@
 // derivatives of the loop's conditions along a motion, written in independent rates: at every configuration they have the
 // same feasible motions as Φ_q, so both forms name the same singular configurations (doc/theory.md).
 //
-// A dyad (spanning_tree.h) says one thing of what turns on its axes a and b, (ω₁ − ω₀)·(a × b) = 0; its own rates follow. A link of
-// a spherical robot whose orientation is asked for turns by the three rates of this output, so that each leg has rows of its
-// own: these are the robot's wrenches, u·(a × b) θ̇ = ω·(a × b).
+// A dyad (spanning_tree.h) says one thing of what turns on its axes a and b, (ω₁ − ω₀)·(a × b) = 0; its own rates follow. A
+// link of a spherical robot whose orientation is asked for turns by the three rates of this output, so that each leg has
+// rows of its own: these are the robot's wrenches, u·(a × b) θ̇ = ω·(a × b).
 #pragma once
 
 #include <map>

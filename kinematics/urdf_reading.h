@@ -13,8 +13,8 @@
 
 namespace corank::kinematics {
 
-/// The XML with the places of its elements and attributes. Refuses what no URDF needs and an attack does: DOCTYPE, entities of
-/// its own, NUL bytes, megabytes, deep nesting; and xacro, which is no URDF yet.
+/// The XML with the places of its elements and attributes. Refuses what no URDF needs and an attack does: DOCTYPE, entities
+/// of its own, NUL bytes, megabytes, deep nesting; and xacro, which is no URDF yet.
 class UrdfDocument {
  public:
   static constexpr std::size_t kMaxBytes = std::size_t{8} << 20;

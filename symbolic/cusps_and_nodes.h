@@ -26,10 +26,10 @@
 
 namespace corank::symbolic {
 
-/// Of the set forward_cusps or inverse_cusps. Its unknowns: xi1 …, eta1 …, tau. `scales`: none, or s_j of each column of M and
-/// of ξ_j, η_j; then the factor of D²Φ, which makes η and τ alike in size in every unit (kernel_scale.h). Throws ModelError
-/// where the locus has no square matrix, or the mobility is below 2: its image among the locked coordinates is then no
-/// hypersurface that could have a cusp or cross itself. So do the other functions.
+/// Of the set forward_cusps or inverse_cusps. Its unknowns: xi1 …, eta1 …, tau. `scales`: none, or s_j of each column of M
+/// and of ξ_j, η_j; then the factor of D²Φ, which makes η and τ alike in size in every unit (kernel_scale.h). Throws
+/// ModelError where the locus has no square matrix, or the mobility is below 2: its image among the locked coordinates is
+/// then no hypersurface that could have a cusp or cross itself. So do the other functions.
 TrigonometricSystem cusp_system(const Mechanism& mechanism, SingularitySet set, const std::vector<std::string>& scales);
 
 /// On which side of the locus the fibre through a cusp lies: of each function g of the coordinates that is 0 on the
@@ -50,8 +50,8 @@ std::string second_name(const Mechanism& mechanism, const std::string& coordinat
 /// size (kernel_scale.h).
 TrigonometricSystem node_system(const Mechanism& mechanism, SingularitySet set, const std::vector<std::string>& scales);
 
-/// Is a locus empty for a plain reason, so that nobody need be asked which one is meant? A serial arm whose inputs are all of
-/// its joints has no forward singularities, whatever its lengths.
+/// Is a locus empty for a plain reason, so that nobody need be asked which one is meant? A serial arm whose inputs are all
+/// of its joints has no forward singularities, whatever its lengths.
 ///
 /// Proven: M of this set (forward, inverse, their cusps or nodes) is regular in the whole search domain, since its rows and
 /// columns can be put in an order in which it is triangular, with a diagonal that is 0 nowhere. False says nothing.

@@ -25,8 +25,9 @@ std::size_t term_rank(const std::vector<std::vector<std::size_t>>& filled, std::
 
 /// The block triangular form of a square matrix by its pattern alone (Dulmage, Mendelsohn 1958; key Dulmage1958): rows and
 /// columns are put in an order in which everything left of and below the square blocks on the diagonal is zero. So det M =
-/// ± Π det B_i, and M is singular exactly where a block is. `filled[i]`: the columns in which row i of an n×n matrix is not identically zero. The irreducible blocks in the order of
-/// their first rows. Nothing where no n entries stand in n rows and n columns: every determinant of that pattern vanishes.
+/// ± Π det B_i, and M is singular exactly where a block is. `filled[i]`: the columns in which row i of an n×n matrix is not
+/// identically zero. The irreducible blocks in the order of their first rows. Nothing where no n entries stand in n rows
+/// and n columns: every determinant of that pattern vanishes.
 std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<std::vector<std::size_t>>& filled);
 
 /// No mistake of the model's: its determinant, expanded, is too long to be of use.

@@ -1,4 +1,5 @@
-// What the tokens of an expression, of comments and of section headers mean, to any grammar that has expressions (model_file.cc, kinematics/part_file.cc).
+// What the tokens of an expression, of comments and of section headers mean, to any grammar that has expressions
+// (model_file.cc, kinematics/part_file.cc).
 #pragma once
 
 #include <string>

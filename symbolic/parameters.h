@@ -1,5 +1,5 @@
-// A family of systems: constants and coordinates that run through ranges, the parameters, as unknowns of one system, which is a
-// set's, or a plain one.
+// A family of systems: constants and coordinates that run through ranges, the parameters, as unknowns of one system, which
+// is a set's, or a plain one.
 #pragma once
 
 #include <optional>
