@@ -13,7 +13,6 @@
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/limits.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/model_text.h"
 #include "corank/symbolic/printer.h"
 
 namespace corank::analyze {

@@ -4,7 +4,6 @@
 
 #include "corank/symbolic/expression_words.h"
 #include "corank/symbolic/model_file.h"
-#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 

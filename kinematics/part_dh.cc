@@ -4,7 +4,6 @@
 #include "corank/kinematics/part_builder.h"
 #include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
-#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 

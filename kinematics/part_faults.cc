@@ -1,7 +1,6 @@
 #include "corank/kinematics/part_faults.h"
 
 #include "corank/symbolic/expression_words.h"
-#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 namespace {

@@ -5,7 +5,6 @@
 #include "corank/kinematics/urdf_reading.h"
 #include "corank/kinematics/vectors.h"
 #include "corank/symbolic/expression_words.h"
-#include "corank/symbolic/nearest_name.h"
 
 namespace corank::kinematics {
 namespace {

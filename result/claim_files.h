@@ -15,7 +15,7 @@
 #include "corank/core/map_claims.h"
 #include "corank/core/tube.h"
 #include "corank/result/result.h"
-#include "corank/symbolic/family_system.h"
+#include "corank/symbolic/parameters.h"
 
 namespace corank::result {
 

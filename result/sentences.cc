@@ -10,8 +10,8 @@
 #include "corank/core/exact_number.h"
 #include "corank/result/tallies.h"
 #include "corank/result/words.h"
+#include "corank/symbolic/cusps_and_nodes.h"
 #include "corank/symbolic/model_error.h"
-#include "corank/symbolic/node_system.h"
 #include "corank/symbolic/velocity_equation.h"
 
 namespace corank::result {
