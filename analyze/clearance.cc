@@ -12,6 +12,7 @@
 #include "corank/core/rounding.h"
 #include "corank/result/sentences.h"
 #include "corank/result/verification.h"
+#include "corank/solve/preconditioner.h"
 #include "corank/solve/problem.h"
 #include "corank/solve/propagation.h"
 #include "corank/solve/solve.h"

@@ -16,6 +16,7 @@
 #include "corank/core/threads.h"
 #include "corank/solve/branching.h"
 #include "corank/solve/ipopt.h"
+#include "corank/solve/preconditioner.h"
 #include "corank/solve/problem.h"
 #include "corank/solve/propagation.h"
 #include "corank/solve/solve.h"

@@ -14,7 +14,10 @@
 #include "corank/certify/newton.h"
 #include "corank/certify/reduction.h"
 #include "corank/solve/options.h"
-#include "corank/solve/preconditioner.h"
+
+namespace corank::solve {
+class PreconditionerFactory;
+}
 
 namespace corank::analyze {
 

@@ -9,8 +9,8 @@
 namespace corank::check {
 namespace {
 
-// Rows and columns in turn divided by the roots of their largest entries. `sizes`: those of the entries in a whole box, since
-// a column that is 0 in its middle but for roundings is to stay small.
+// Rows and columns in turn divided by the roots of their largest entries. `sizes`: those of the entries in a whole box,
+// since a column that is 0 in its middle but for roundings is to stay small.
 std::vector<std::vector<double>> balanced(std::vector<std::vector<double>> a, std::vector<std::vector<double>> sizes) {
   constexpr int kTurns = 8;
   const std::size_t columns = a.empty() ? 0 : a[0].size();
