@@ -200,6 +200,8 @@ bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, 
   system.jacobian(b, w.slope);
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
   std::vector<double> distance, sizes;
+  distance.reserve(p.y.size());
+  sizes.reserve(p.rank());
   for (int a = 0; a < p.rank(); ++a) {
     for (int k = 0; k < p.rank(); ++k)
       distance.push_back((Interval(k == a ? 1.0 : 0.0) - w.panel.at(a, p.dependent[k])).mag());

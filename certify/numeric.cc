@@ -53,16 +53,17 @@ bool is_contraction(const std::vector<double>& e, std::vector<double> sizes) {
   CORANK_CHECK(e.size() == n * n && UpwardRounding::active());
   std::vector<double> r = sizes, next(n);
   for (int candidate = 0; candidate < kCandidates; ++candidate) {
-    double factor = 0, largest = 0;
+    bool passes = true;
+    double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      double sum = 0;
+      double sum = 0;  // rounded upward
       for (std::size_t j = 0; j < n; ++j) sum += e[i * n + j] * r[j];
       if (!std::isfinite(sum)) return false;
       next[i] = sum;
-      factor = std::max(factor, sum / r[i]);
+      passes = passes && sum < r[i];
       largest = std::max(largest, sum / sizes[i]);
     }
-    if (factor < 1) return true;
+    if (passes) return true;
     for (std::size_t i = 0; i < n; ++i) r[i] = next[i] / largest + 0.05 * sizes[i];
   }
   return false;
