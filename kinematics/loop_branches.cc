@@ -92,8 +92,8 @@ LoopBranches BranchFinder::branches_of(const Sides& sides, std::size_t number) c
 
 bool BranchFinder::are_equal(const PlanePoint& a, const PlanePoint& b) const {
   const PlanePoint difference = plus(a, b, -1);
-  return std::all_of(difference.terms.begin(), difference.terms.end(), [&](const auto& term) {
-    const ex re = algebra_.clean(term.second.re), im = algebra_.clean(term.second.im);
+  return std::all_of(difference.terms.begin(), difference.terms.end(), [&](const Turn& term) {
+    const ex re = algebra_.clean(term.k.re), im = algebra_.clean(term.k.im);
     return algebra_.is_constant(re) && algebra_.is_constant(im) && algebra_.is_zero(re) && algebra_.is_zero(im);
   });
 }

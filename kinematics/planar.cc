@@ -200,7 +200,7 @@ class PlanarRobot : Drafter {
     } else {
       const PlanePoint way = plus(point, at(output.relative_to, {0, 0, 0}), -1);
       PlanePoint seen;
-      for (const auto& [angle, k] : way.terms) seen.add(Turn{k, angle} * inverse(plane_.turns.at(group(base))), {1, 0});
+      for (const Turn& term : way.terms) seen.add(term * inverse(plane_.turns.at(group(base))), {1, 0});
       seen.height = way.height;
       components = transpose(bodies_.placement[output.relative_to].rotation) * in_frame(group(base), seen);
     }

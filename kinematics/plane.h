@@ -1,9 +1,11 @@
 // Turns and points of a plane as complex numbers, with angles that are coordinates; and how bodies lie in it.
 #pragma once
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "corank/kinematics/bodies.h"
 
@@ -30,39 +32,40 @@ inline Turn inverse(const Turn& a) { return {conjugate(a.k), -a.angle}; }  // |k
 
 /// A point of the plane: a sum of k e^{iα}, with its height over the plane. k may hold lengths.
 struct PlanePoint {
-  std::map<ex, Complex, GiNaC::ex_is_less> terms;
+  std::vector<Turn> terms;  ///< of different angles, in the order in which they came: GiNaC's differs from run to run
   ex height = 0;
 
   void add(const Turn& turn, const Complex& k) {
     const Complex sum = turn.k * k;
-    const auto [at, is_new] = terms.emplace(turn.angle, sum);
-    if (!is_new) at->second = {at->second.re + sum.re, at->second.im + sum.im};
+    const auto at = std::ranges::find_if(terms, [&](const Turn& term) { return term.angle.is_equal(turn.angle); });
+    if (at == terms.end())
+      terms.push_back({sum, turn.angle});
+    else
+      at->k = {at->k.re + sum.re, at->k.im + sum.im};
   }
   ex x() const {
     ex sum = 0;
-    for (const auto& [angle, k] : terms) sum += Turn{k, angle}.cosine();
+    for (const Turn& term : terms) sum += term.cosine();
     return sum;
   }
   ex y() const {
     ex sum = 0;
-    for (const auto& [angle, k] : terms) sum += Turn{k, angle}.sine();
+    for (const Turn& term : terms) sum += term.sine();
     return sum;
   }
   /// x² + y² + height², squares of a cosine and its sine put together.
   ex squared() const {
     ex sum = height * height;
     for (auto a = terms.begin(); a != terms.end(); ++a) {
-      sum += a->second.re * a->second.re + a->second.im * a->second.im;
-      for (auto b = std::next(a); b != terms.end(); ++b) {
-        const Complex product = a->second * conjugate(b->second);
-        sum += 2 * (product.re * GiNaC::cos(a->first - b->first) - product.im * GiNaC::sin(a->first - b->first));
-      }
+      sum += a->k.re * a->k.re + a->k.im * a->k.im;
+      for (auto b = std::next(a); b != terms.end(); ++b)
+        sum += 2 * Turn{a->k * conjugate(b->k), a->angle - b->angle}.cosine();
     }
     return sum;
   }
 };
 inline PlanePoint plus(PlanePoint a, const PlanePoint& b, int sign = 1) {
-  for (const auto& [angle, k] : b.terms) a.add({{1, 0}, angle}, {sign * k.re, sign * k.im});
+  for (const Turn& term : b.terms) a.add({{1, 0}, term.angle}, {sign * term.k.re, sign * term.k.im});
   a.height += sign * b.height;
   return a;
 }
