@@ -56,7 +56,7 @@ bool is_regular(const IntervalMatrix& m, const std::vector<int>& rows, const std
     typical.push_back(sizes[columns[j]]);
   }
   const Eigen::MatrixXd y = inverse(middle(n));  // any real matrix will do
-  return y.allFinite() && is_contraction(distance_from_identity(y, n), std::move(typical));
+  return y.allFinite() && is_contraction(distance_from_identity(y, n), typical);
 }
 
 }  // namespace

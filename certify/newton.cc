@@ -16,7 +16,7 @@ namespace corank::certify {
 struct NewtonBuffers {
   Panel panel;  ///< Y and Y·S
   std::vector<Interval> slope, values, residual, offset, image, region, gradient;
-  std::vector<double> center;
+  std::vector<double> center, distance, sizes;
   std::vector<unsigned char> is_dependent;
   std::vector<int> free;
   std::vector<Interval> stepped;  ///< the box of a step
@@ -199,15 +199,14 @@ bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, 
                          NewtonBuffers& w) {
   system.jacobian(b, w.slope);
   if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
-  std::vector<double> distance, sizes;
-  distance.reserve(p.y.size());
-  sizes.reserve(p.rank());
+  w.distance.clear();
+  w.sizes.clear();
   for (int a = 0; a < p.rank(); ++a) {
     for (int k = 0; k < p.rank(); ++k)
-      distance.push_back((Interval(k == a ? 1.0 : 0.0) - w.panel.at(a, p.dependent[k])).mag());
-    sizes.push_back(system.scales()[p.dependent[a]]);
+      w.distance.push_back((Interval(k == a ? 1.0 : 0.0) - w.panel.at(a, p.dependent[k])).mag());
+    w.sizes.push_back(system.scales()[p.dependent[a]]);
   }
-  return is_contraction(distance, std::move(sizes));
+  return is_contraction(w.distance, w.sizes);
 }
 
 }  // namespace

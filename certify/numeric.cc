@@ -47,11 +47,13 @@ std::vector<double> distance_from_identity(const Eigen::MatrixXd& y, const Inter
   return result;
 }
 
-bool is_contraction(const std::vector<double>& e, std::vector<double> sizes) {
+bool is_contraction(const std::vector<double>& e, const std::vector<double>& sizes) {
   constexpr int kCandidates = 6;
   const std::size_t n = sizes.size();
   CORANK_CHECK(e.size() == n * n && UpwardRounding::active());
-  std::vector<double> r = sizes, next(n);
+  thread_local std::vector<double> r, next;  // both are written before they are read
+  r = sizes;
+  next.resize(n);
   for (int candidate = 0; candidate < kCandidates; ++candidate) {
     bool passes = true;
     double largest = 0;
