@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 #include "corank/certify/numeric.h"
@@ -14,7 +15,7 @@
 namespace corank::certify {
 namespace {
 
-// The same for symmetric matrices in M: the entries (i, j) and (j, i) are the same number.
+// congruent() for symmetric matrices in M: the entries (i, j) and (j, i) are the same number.
 IntervalMatrix congruent_symmetric(const IntervalMatrix& m, const IntervalMatrix& p) {
   IntervalMatrix result = congruent(m, p);
   for (int i = 0; i < p.columns; ++i)
@@ -71,7 +72,8 @@ std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::v
       for (int k = 0; k < m; ++k) r.back() += Interval(y(i, k)) * a(k, free[f]);
       largest = std::max(largest, r.back().mag() / weights[i]);
     }
-    const double bound = largest / gap;  // upward: of ‖X‖
+    const double bound = largest / gap;              // upward: of ‖X‖
+    if (!std::isfinite(bound)) return std::nullopt;  // 0·∞ below would be no number
     for (int i = 0; i < m; ++i) {
       double slack = 0;  // upward: of the i-th entry of (I − Y·A_D)X
       for (int j = 0; j < m; ++j) slack += magnitudes[i * m + j] * bound * weights[j];
@@ -126,7 +128,7 @@ Interval determinant(const IntervalMatrix& a) {
       const std::size_t bit = std::size_t{1} << j;
       if ((s & bit) == 0) continue;
       const Interval term = a(row, j) * minors[s ^ bit];
-      // The columns of S behind j: so many transpositions bring j to the end.
+      // A transposition with each column of S behind j brings j to the end.
       if (std::popcount(s >> (j + 1)) % 2 == 0)
         minors[s] += term;
       else

@@ -159,5 +159,15 @@ TEST(KernelBasis, DoesNotDependOnUnits) {
   }
 }
 
+// 2⁻⁷⁰⁰·x + 2⁷⁰⁰·y = 0: x = −2¹⁴⁰⁰·y is beyond doubles, and the residue of 1/2⁻⁷⁰⁰ is 0, which times ∞ is no number.
+TEST(KernelBasis, IsNotShownWhereItsEntriesOverflow) {
+  const UpwardRounding rounding;
+  IntervalMatrix a(1, 2);
+  a(0, 0) = Interval(std::ldexp(1.0, -700));
+  a(0, 1) = Interval(std::ldexp(1.0, 700));
+  EXPECT_FALSE(kernel_basis(a, {0}));
+  EXPECT_TRUE(kernel_basis(a, {1}));
+}
+
 }  // namespace
 }  // namespace corank::certify
