@@ -24,7 +24,7 @@ struct Outline {
   VelocityEquation velocity;
   std::vector<Expression> phi;
   long mobility = 0;
-  std::size_t ties = 0, free = 0;  // outputs that are tied, and others
+  long ties = 0, free = 0;  // outputs that are tied, and others: below 0 where more rows are ties than there are outputs
 };
 
 Outline outline(const Mechanism& mechanism) {
@@ -38,11 +38,12 @@ Outline outline(const Mechanism& mechanism) {
   o.phi = std::move(derivation.phi);
   o.mobility = std::ssize(o.velocity.matrix.columns) - std::ssize(o.phi);
   const Role output = Role::output;
-  o.ties = o.velocity.ties(std::span(&output, 1)).size();
-  o.free = mechanism.outputs().size() - o.ties;
-  if (o.phi.empty() || std::cmp_greater(o.free, o.mobility) || o.free < 1)
+  o.ties = std::ssize(o.velocity.ties(std::span(&output, 1)));
+  o.free = std::ssize(mechanism.outputs()) - o.ties;
+  if (o.phi.empty() || o.free > o.mobility || o.free < 1)
     throw ModelError(where,
-                     "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + counted(o.free, "free output"),
+                     "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(o.free) +
+                         " free output" + (o.free == 1 ? "" : "s"),
                      "at least one output, and at most as many as the mobility");
   return o;
 }

@@ -108,6 +108,14 @@ TEST(BoundaryParts, NeedOutputs) {
                                  "m.cuik")),
       ModelError)
       << "more than its mobility";
+  const Mechanism tied = parse_model(
+      "[SYSTEM VARS]\nx : [0, 2]\ny : [0, 2]\nz : [0, 2]\n[SYSTEM EQS]\nx = 1;\nx^2 = 1;\n[OUTPUTS] x\n", "tied.cuik");
+  try {
+    boundary_parts(tied);
+    FAIL() << "two equations tie one output";
+  } catch (const ModelError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("mobility 1, but -1 free outputs"));
+  }
 }
 
 TEST(BoundaryParts, AreSystemsOfTheExpectedDimension) {
