@@ -286,6 +286,11 @@ std::vector<symbolic::Condition> conditions_of(const Robot& robot, const Bodies&
   const Algebra::Translation text(algebra);
   std::vector<symbolic::Condition> list;
   for (const auto& [value, sign] : algebra.decisions()) list.push_back({text(value), sign});
+  // GiNaC's order is another in each process.
+  std::ranges::sort(list, {}, [](const symbolic::Condition& c) {
+    const std::string written = c.value.text();
+    return std::pair(written.size(), written);
+  });
   return list;
 }
 

@@ -83,7 +83,8 @@ Bodies bodies_of(const Robot& robot, Algebra& algebra);
 /// the same way asks for the same.
 Bodies about_centres(const Robot& robot, const Bodies& bodies, Algebra& algebra);
 
-/// What decided so far how the equations are made: what the algebra did, and what the reader of the parts did of axes.
+/// What decided so far how the equations are made: what the algebra did, and what the reader of the parts did of axes. Short
+/// ones come first.
 std::vector<symbolic::Condition> conditions_of(const Robot& robot, const Bodies& bodies, const Algebra& algebra);
 
 }  // namespace corank::kinematics

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "corank/kinematics/part_file.h"
 #include "corank/symbolic/evaluate.h"
 #include "corank/symbolic/model_file.h"
@@ -378,6 +380,15 @@ TEST(Assembly, RefusesAnOutputsComponentThatCannotMove) {
       "revolute j2 : a (1, 0, 0) + (1, 0, 0)  b (0, 0, 0) + (1, 0, 0)\n[OUTPUTS]\n";
   EXPECT_THAT(fault_of(arm + "p : position of a (1, 0, 2) only x z\n"), HasSubstr("the component z of the output 'p'"));
   EXPECT_EQ(assembled(arm + "p : position of a (1, 0, 2)\n").space, Space::spatial);
+}
+
+// GiNaC's order of terms, in which the decisions are kept, is another in each process.
+TEST(Assembly, NamesItsConditionsInAnOrderOfTheirTexts) {
+  const Assembly arm = assemble(read_part_file(CORANK_SOURCE_DIR "/models/serial/puma_560.cuik"));
+  std::vector<std::pair<std::size_t, std::string>> texts;
+  for (const symbolic::Condition& c : arm.conditions) texts.emplace_back(c.value.text().size(), c.value.text());
+  EXPECT_GT(texts.size(), 5u);
+  EXPECT_TRUE(std::ranges::is_sorted(texts));
 }
 
 // Twelve numbers of a pose and a joint's value, at a configuration that is known.
