@@ -72,7 +72,7 @@ void PartBuilder::push_constant(std::string_view name_read, const SourceLocation
   }
   if (!scope.has(resolved))
     throw ModelError(where, "the constant " + in_quotes(name_read) + " is not defined before",
-                     "a constant of [CONSTANTS]" + symbolic::suggestion(resolved, scope.names()));
+                     "a constant of [CONSTANTS]" + suggestion(resolved, scope.names()));
   expressions.symbol(resolved, where);
 }
 
@@ -95,7 +95,7 @@ std::size_t PartBuilder::require_link(const ReadName& link, const std::string& e
   if (found < 0 && goes_on_ && link.text == "ground") return 0;
   if (found < 0)
     throw ModelError(link.where, "there is no link " + in_quotes(link.text),
-                     expectation + symbolic::suggestion(link.text, symbolic::names_of(robot.links)));
+                     expectation + suggestion(link.text, symbolic::names_of(robot.links)));
   return found;
 }
 
@@ -103,7 +103,7 @@ std::size_t PartBuilder::require_joint(const ReadName& joint, const std::string&
   const int found = robot.find_joint(joint.text);
   if (found < 0)
     throw ModelError(joint.where, "there is no joint " + in_quotes(joint.text),
-                     expectation + symbolic::suggestion(joint.text, symbolic::names_of(robot.joints)));
+                     expectation + suggestion(joint.text, symbolic::names_of(robot.joints)));
   return found;
 }
 

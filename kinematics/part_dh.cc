@@ -79,8 +79,7 @@ void PartBuilder::finish_dh_cells() {
       throw ModelError(
           other.where,
           "the constant " + in_quotes(other.name) + " in the column " + in_quotes(column) + " is not defined before",
-          "a constant of [CONSTANTS]" + symbolic::suggestion(resolve(other.name), scope.names()) +
-              "; joints vary theta or d");
+          "a constant of [CONSTANTS]" + suggestion(resolve(other.name), scope.names()) + "; joints vary theta or d");
     if (other.name != variable.name || other.column != variable.column)
       throw ModelError(
           other.where,

@@ -46,14 +46,13 @@ std::string PartFault::name_found() const {
 void PartFault::no_joint() const {
   const std::string name = name_found();
   if (name.empty()) found_instead_of(std::string("a joint, kind : link points link points, or a section"));
-  const std::string kind = symbolic::nearest_name(name, kKinds);
+  const std::string kind = nearest_name(name, kKinds);
   if (!parts.last_joint.empty() && parts.robot.find_link(parts.resolve(name)) >= 0 && kind.empty())
     say("found a third end of " + parts.last_joint + ", on the link " + in_quotes(name), "two ends");
-  if (parts.last_joint.empty())
-    say(in_quotes(name) + " is not a kind of joint", kKindList + symbolic::suggestion(name, kKinds));
+  if (parts.last_joint.empty()) say(in_quotes(name) + " is not a kind of joint", kKindList + suggestion(name, kKinds));
   say(in_quotes(name) + " is neither a kind of joint nor an option of " + parts.last_joint,
       std::string("an option such as range, zero or actuated, or the next joint: ") + kKindList +
-          symbolic::suggestion(name, joined(kKinds, kOptions)));
+          suggestion(name, joined(kKinds, kOptions)));
 }
 
 void PartFault::no_joint_link() const {
@@ -82,7 +81,7 @@ void PartFault::no_second_point() const {
 void PartFault::no_colour() const {
   const std::string name = name_found();
   if (name.empty()) found_instead_of(kColours);
-  say(in_quotes(name) + " is not a colour", kColours + symbolic::suggestion(name, kColourWords));
+  say(in_quotes(name) + " is not a colour", kColours + suggestion(name, kColourWords));
 }
 
 void PartFault::no_output_kind() const {
@@ -91,7 +90,7 @@ void PartFault::no_output_kind() const {
       "position of link.point, orientation of link, pose of link, direction of link (x, y, z) or "
       "joint name";
   if (name.empty()) found_instead_of(expectation);
-  say(in_quotes(name) + " cannot be an output", expectation + symbolic::suggestion(name, kOutputs));
+  say(in_quotes(name) + " cannot be an output", expectation + suggestion(name, kOutputs));
 }
 
 void PartFault::no_dh_cell() const {
@@ -109,13 +108,13 @@ void PartFault::unknown_part_section() const {
       parts.section_where, "section [" + symbolic::shortened(title) + "] is unknown beside [LINKS]",
       "[CONSTANTS], [LINKS], [JOINTS], [DH], [INPUTS], [OUTPUTS], [INCLUDE], [EQUATIONS], [OBSTACLES] or "
       "[COLLISIONS]" +
-          symbolic::suggestion(title, kSections));
+          suggestion(title, kSections));
 }
 
 void refuse_word_behind_link(const std::string& word, const std::string& link, const SourceLocation& where) {
   throw symbolic::ModelError(where, "found " + in_quotes(word) + " in the line of the link " + in_quotes(link),
                              "a shape, a colour, point, mass, or the next link in a line of its own" +
-                                 symbolic::suggestion(word, joined(kColourWords, kLinkWords)));
+                                 suggestion(word, joined(kColourWords, kLinkWords)));
 }
 
 }  // namespace corank::kinematics

@@ -148,7 +148,11 @@ void PartBuilder::set_ranges(Joint& joint) {
       const JointDraft::Reference& reference = draft.references[i];
       return reference.is_direction ? reference.value : reference.value - end.point;
     };
-    (is_size ? end.axis : end.zero.emplace()) = direction();
+    if (is_size) {
+      end.axis = direction();
+    } else {
+      end.zero = direction();
+    }
   }
 }
 

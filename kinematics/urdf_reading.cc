@@ -51,7 +51,7 @@ void UrdfReading::allow_children(const pugi::xml_node& element, std::initializer
     if (child.type() != pugi::node_element) continue;
     const std::string_view name = child.name();
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    if (const std::string meant = symbolic::nearest_name(std::string(name), {names.begin(), names.end()}); !meant.empty())
+    if (const std::string meant = nearest_name(std::string(name), {names.begin(), names.end()}); !meant.empty())
       throw ModelError(where(child), "an unknown element <" + symbolic::shortened(name) + ">",
                        "<" + meant + ">, or another name");
     notice("<" + symbolic::shortened(name) + "> in a <" + element.name() + "> passed over");
@@ -127,7 +127,7 @@ std::size_t UrdfNames::find(const pugi::xml_node& element, const char* attribute
   if (found != index_.end()) return found->second;
   throw ModelError(
       reading_.where(element.attribute(attribute)), "there is no " + what_ + " " + in_quotes(name),
-      "the name of a <" + what_ + "> of this file" + symbolic::suggestion(std::string(name), {list_.begin(), list_.end()}));
+      "the name of a <" + what_ + "> of this file" + suggestion(std::string(name), {list_.begin(), list_.end()}));
 }
 
 std::vector<std::string> UrdfNames::identifiers() {

@@ -216,9 +216,8 @@ class TreeReader {
     if (type == "fixed") return JointKind::fixed;
     if (type == "planar") return JointKind::planar;
     const std::vector<std::string> types{"revolute", "continuous", "prismatic", "fixed", "planar", "floating"};
-    throw ModelError(
-        where, "a joint's type is " + in_quotes(type),
-        "revolute, continuous, prismatic, fixed, planar or floating" + symbolic::suggestion(std::string(type), types));
+    throw ModelError(where, "a joint's type is " + in_quotes(type),
+                     "revolute, continuous, prismatic, fixed, planar or floating" + suggestion(std::string(type), types));
   }
 
   // Once all joints are there: one may follow another that stands behind it.

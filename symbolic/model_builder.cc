@@ -83,14 +83,10 @@ std::optional<SourceLocation> ExpressionBuilder::open_parenthesis() const {
 }
 
 void ModelBuilder::finish_variable() {
-  const bool has_range = !values.empty(), is_angle = kind == CoordinateKind::angle;
-  const Expression lower = has_range  ? values.at(0)
-                           : is_angle ? -pi()
-                                      : Expression(0),
-                   upper = has_range  ? values.at(1)
-                           : is_angle ? pi()
-                                      : Expression(0);
-  mechanism.coordinate({declared, kind, lower, upper, declared_where, auxiliary, has_range || is_angle});
+  if (values.empty() && kind == CoordinateKind::angle) values = {-pi(), pi()};
+  const bool has_range = !values.empty();
+  if (!has_range) values = {0, 0};
+  mechanism.coordinate({declared, kind, values.at(0), values.at(1), declared_where, auxiliary, has_range});
   values.clear();
 }
 

@@ -15,8 +15,8 @@ struct SourceLocation {
   /// "dextar.cuik:12:7", "dextar.cuik:12", or the file (or "model") alone.
   std::string text() const {
     std::string result = file.empty() ? "model" : file;
-    for (const int number : {line, line > 0 ? column : 0})
-      if (number > 0) result += ':' + std::to_string(number);
+    if (line > 0) result += ':' + std::to_string(line);
+    if (line > 0 && column > 0) result += ':' + std::to_string(column);
     return result;
   }
   friend bool operator==(const SourceLocation&, const SourceLocation&) = default;
