@@ -43,7 +43,7 @@ class Draft {
   ex length(const std::string& name, const std::optional<Range>& range, const SourceLocation& where, bool auxiliary = false);
   /// An angle that is a coordinate is looked at in this range only. Throws ModelError where its own range has other values.
   void slice(const ex& angle, const Range& range, const std::string& what, const SourceLocation& where);
-  /// The middle and the half of a range of angles; nothing where that is the whole circle.
+  /// The middle of a range of angles and half of its width; nothing where it is the whole circle.
   struct Arc {
     ex middle, half;
   };
@@ -90,7 +90,7 @@ class Draft {
   /// output names a component, by `only` or by a range, that is.
   std::array<bool, 3> moving(const Output& output, const Vec& value) const;
   void at_least_zero(const ex& e, const std::string& note, const SourceLocation& where);
-  /// Of an angle that is the difference of two: it is 0.
+  /// The difference of two angles is 0.
   void no_turn(const Turn& difference, const SourceLocation& where) {
     if (equation(difference.sine(), "angle", where)) at_least_zero(difference.cosine(), "angle", where);
   }
@@ -202,7 +202,7 @@ class Draft {
   std::vector<symbolic::DrawingPart> parts_;
 };
 
-/// Whoever writes equations of a robot's bodies into a draft.
+/// The base of those who write equations of a robot's bodies into a draft.
 class Drafter {
  public:
   Drafter(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft)
@@ -211,12 +211,13 @@ class Drafter {
  protected:
   const Joint& joint(const BodyJoint& j) const { return robot_.joints[j.index]; }
   const Joint& joint(std::size_t in_bodies) const { return joint(bodies_.joints[in_bodies]); }
+  /// In Bodies::joints.
   std::size_t number(const BodyJoint& j) const { return &j - bodies_.joints.data(); }
   std::size_t group(std::size_t body) const { return bodies_.group[body]; }
   const std::string& name_of(std::size_t body) const { return robot_.links[bodies_.link_of(body)].name; }
 
-  /// Poses of links and values of joints, for whoever wants to know them of a solution. In the world: image(body, vector)
-  /// and place(body, point); angle(joint): cosine and sine, where a revolute joint has no coordinate.
+  /// Writes poses of links and values of joints, by which a solution is told. image(body, vector) and place(body, point) are
+  /// in the world; angle(joint) is the cosine and sine of a revolute joint that has no coordinate.
   void report(const std::vector<std::optional<ex>>& coordinates, auto&& image, auto&& place, auto&& angle) {
     for (std::size_t l = 0; l < robot_.links.size(); ++l) {
       const Placement& at = bodies_.placement[l];

@@ -30,12 +30,12 @@ LegsInOnePiece legs_in_one_piece(const Robot& robot);
 /// direction, all sliding ones are perpendicular to it.
 std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& algebra);
 
-/// Of a robot in a plane. Each group of bodies has an absolute angle, or the angle of the joint that carries it; a loop
+/// Writes the equations of a robot in a plane. Each group of bodies has an absolute angle, or the angle of the joint that carries it; a loop
 /// closes by two equations. Velocities are the derivatives of these: L = Φ_q. Throws ModelError where the robot can't be
 /// assembled, or an output means nothing in a plane.
 void draft_planar(const Robot& robot, const Bodies& bodies, const std::vector<Vec>& normals, Algebra& algebra, Draft& draft);
 
-/// Of a robot in space.
+/// Writes the equations of a robot in space.
 ///
 /// Unknowns are directions: the axis of a turning joint is one unit vector that both of its links share. Two directions that
 /// are fixed in a group of bodies (with their constant angle) make its rotation; the third is their cross product, and all
@@ -46,18 +46,18 @@ void draft_planar(const Robot& robot, const Bodies& bodies, const std::vector<Ve
 /// rows that can never hold anything are left out. Where two rods are taken together (rods.h) and all inputs and outputs
 /// are coordinates, velocities are those of the equations.
 ///
-/// Returns whether it is a spherical one: all of its loops close wherever its bodies are turned to, since all axes go
+/// Returns whether the robot is a spherical one: all of its loops close wherever its bodies are turned to, since all axes go
 /// through one point. `deep`: of the spanning tree. Throws ModelError where the robot can't be assembled.
 bool draft_spatial(const Robot& robot, const Bodies& bodies, Algebra& algebra, Draft& draft, bool deep = false);
 
-/// What a report draws of a robot: its links between their joints, its shapes; points move as the rates say.
 /// A point in the picture's coordinates, and its velocity in the rates where the mechanism has such.
 struct Motion {
   Vec at;
   std::optional<Vec> velocity;
 };
 
-/// Draws in the plane or in space; `place` is where a body's point is.
+/// What a report draws of a robot, in the plane or in space: its links between their joints, its shapes; points move as the
+/// rates say. `place` is where a body's point is.
 void draw(const Drafter& drafter, Space space, const std::function<Motion(std::size_t body, const Vec& point)>& place);
 
 }  // namespace corank::kinematics

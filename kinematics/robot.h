@@ -61,11 +61,11 @@ struct JointTraits {
   JointKind kind;
   const char* name;        ///< "revolute" …, "fix", "sph_sph", "sph_prs_sph", "uni_prs_uni"
   int freedom;             ///< in how many ways its links move on each other
-  std::size_t ranges = 0;  ///< of so many values of its own at most
+  std::size_t ranges = 0;  ///< at most, each of a value of its own
   bool has_axis = false;
   bool has_angle = false;  ///< which counts from a zero direction
 };
-/// Of all kinds.
+/// One for each kind.
 std::span<const JointTraits> joint_traits();
 const JointTraits& traits(JointKind kind);
 inline const char* to_string(JointKind kind) { return traits(kind).name; }

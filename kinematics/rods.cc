@@ -143,7 +143,7 @@ void Rods::close(std::size_t j) {
   const Joint& of = joint(j);
   const std::string what = "the rod '" + of.name + "'";
   const Leg leg = leg_of(j);
-  // Whatever the rod: where its ends are may make coordinates, and these come first.
+  // First of all, for every rod: the places of its ends may make coordinates.
   const Vec p = algebra_.clean(positions_.place(leg.ends[1]) - positions_.place(leg.ends[0]));
   keep_in_plane(leg, p);
   if (leg.second) {

@@ -12,8 +12,8 @@
 namespace corank::symbolic {
 namespace {
 
-// With the derivative of Φ by coordinates as velocity equation: second derivatives need coordinates, and a mechanism's own
-// rates have none.
+// The locus of which cusps or nodes are asked for, with the derivative of Φ by coordinates as velocity equation: second
+// derivatives need coordinates, and a mechanism's own rates have none.
 struct LocusByCoordinates {
   Mechanism mechanism;               // without rates of its own
   KernelQuestion kernel;             // right, nothing eliminated; its columns are coordinates
@@ -61,7 +61,7 @@ std::string row_name(const LocusByCoordinates& locus, std::size_t i, const std::
   return "row " + std::to_string(i + 1) + " of " + locus.kernel.name + " " + rest;
 }
 
-// M ξ = 0, with other names.
+// M ξ = 0, with y′ in place of y where `names` say so.
 void add_kernel_rows(TrigonometricSystem& system, const LocusByCoordinates& locus, const std::vector<Expression>& rates,
                      const std::string& vector, const Names& names = {}) {
   const auto& rows = locus.kernel.matrix.rows;

@@ -30,10 +30,10 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
 /// "1 point", "2 points".
 std::string counted(std::size_t n, const std::string& noun);
 
-/// How many letters are to be changed (inserted, deleted, replaced) that a becomes b. Capital letters count as small ones.
+/// The fewest letters to insert, delete or replace that turn a into b. Capital letters count as small ones.
 std::size_t edit_distance(std::string_view a, std::string_view b);
-/// Of the names that exist the one that an author may have meant: with the fewest changes, where these are few for the
-/// length of both. Empty where there is none.
+/// The known name that an author may have meant: the one with the least edit_distance, where that is small for the length of
+/// both. Empty where there is none.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 /// "; did you mean 'hand'?" or nothing.
 std::string suggestion(const std::string& name, const std::vector<std::string>& known);

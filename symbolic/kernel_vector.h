@@ -34,8 +34,8 @@ std::optional<Expression> kernel_row(const std::vector<Expression>& entries, con
 /// Σ x_i² and Σ x_i y_i, term by term.
 Expression square_of(const std::vector<Expression>& x);
 Expression dot(const std::vector<Expression>& x, const std::vector<Expression>& y);
-/// a·x, a the fixed generic vector of one kernel vector: 0.3 + 0.7·frac((i + 1)·golden ratio) to four digits, so that no
-/// mechanism's symmetry makes a·ξ = 0 on a whole piece of a singularity set.
+/// a·x, a the fixed generic vector of one kernel vector: a_i = 0.3 + 0.7·frac((i + 1)·golden ratio) to four digits, so that
+/// no mechanism's symmetry makes a·ξ = 0 on a whole piece of a singularity set.
 Expression generic_form(const std::vector<Expression>& x);
 
 }  // namespace corank::symbolic

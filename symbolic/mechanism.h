@@ -87,7 +87,7 @@ struct Rate {
   SourceLocation where;
 };
 
-/// Of things that have one.
+/// The names of constants, coordinates, links …, in their order.
 std::vector<std::string> names_of(const auto& things) {
   std::vector<std::string> names;
   for (const auto& thing : things) names.push_back(thing.name);
@@ -203,7 +203,7 @@ class Mechanism {
   /// Declares a composite and its coordinates name_suffix.
   std::vector<Expression> compose(Composite::Kind kind, const std::string& name, const std::vector<std::string>& suffixes,
                                   const SourceLocation& where);
-  /// Those chosen before and these, which must not be among others.
+  /// Those chosen before, then these, none of which may be among the others.
   std::vector<std::string> chosen(Role role, const std::vector<Expression>& symbols, const SourceLocation& where,
                                   std::vector<std::string> before, const std::vector<std::string>& others) const;
 
