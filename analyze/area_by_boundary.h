@@ -45,7 +45,7 @@ struct AreaOptions {
 /// Is every point of the cell an output (1), none (−1)? 0: that is not known after so many tries.
 int membership(const System& configurations, int x, int y, const Interval& cell_x, const Interval& cell_y, int tries);
 
-/// The same for any mechanism. The plane is divided into cells, the largest undecided one first. A cell is
+/// Bounds of the area for any mechanism. The plane is divided into cells, the largest undecided one first. A cell is
 ///   in    where newton_prove (certify/newton.h), with the outputs free in the cell and the coordinates that are left over
 ///         fixed at values, shows one configuration for every output in it, and DomainTest that all of these are inside;
 ///   out   where projections, Newton steps and bisection leave nothing of the configurations over it.

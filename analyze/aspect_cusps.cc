@@ -17,8 +17,6 @@
 namespace corank::analyze {
 namespace {
 
-const char* name_of(std::size_t locus) { return locus == 0 ? "forward" : "inverse"; }
-
 // `outer`: of each factor of the locus the sign of its function cusp_sides() over the cusp; `places`: of the factors among
 // the cells' functions.
 void find_sides(AspectCusp& cusp, const std::vector<int>& outer, const std::vector<std::size_t>& places,
@@ -63,10 +61,13 @@ void add_cusps(study::Question question, std::size_t locus, const symbolic::Loci
   }
   cusps.looked_for[locus] = true;
   cusps.all[locus] = found.cover.complete() && found.cover.boxes.size() == proven.size();
-  if (!cusps.all[locus]) cusps.reasons.push_back(fmt::format("{} cusps: {}", name_of(locus), result::locus_sentence(found)));
+  if (!cusps.all[locus])
+    cusps.reasons.push_back(fmt::format("{} cusps: {}", locus_name(locus), result::locus_sentence(found)));
 }
 
 }  // namespace
+
+const char* locus_name(std::size_t locus) { return locus == 0 ? "forward" : "inverse"; }
 
 AspectCusps aspect_cusps(const study::Question& question, const symbolic::Loci& loci, SignCells& cells, const Pieces& pieces,
                          int threads, solve::Control& control) {
@@ -86,7 +87,7 @@ AspectCusps aspect_cusps(const study::Question& question, const symbolic::Loci& 
     try {
       add_cusps(question, locus, loci, cells, pieces, threads, control, cusps);
     } catch (const symbolic::ModelError& error) {
-      cusps.reasons.push_back(fmt::format("{} cusps: {}", name_of(locus), error.what()));
+      cusps.reasons.push_back(fmt::format("{} cusps: {}", locus_name(locus), error.what()));
     }
   }
   if (control.ended()) cusps.reasons.emplace_back("the analysis was ended by a limit");
@@ -107,7 +108,7 @@ void check_parity(const study::Question& question, int threads, solve::Control& 
     cusps.reasons.push_back(fmt::format(
         "{} cusps: their number, {}, does not have the parity of the Euler characteristic {} of the closed C-space, "
         "as it has for a generic map; there may be others",
-        name_of(locus), count, *shape.euler_characteristic));
+        locus_name(locus), count, *shape.euler_characteristic));
   }
 }
 

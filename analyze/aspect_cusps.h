@@ -36,6 +36,9 @@ struct AspectCusps {
   std::optional<int> euler_characteristic;
 };
 
+/// "forward", "inverse": the loci in the order of AspectCusps::all.
+const char* locus_name(std::size_t locus);
+
 /// Of pieces that are exact, of cells whose functions are all the loci's factors. The cusps are searched for
 /// (symbolic/cusps_and_nodes.h). Theorem: let one function g of the locus alone be 0 at the cusp. All points of C-space
 /// near it lie in the cells that its box meets; where all parts of these with the signs of one side are of one piece, that

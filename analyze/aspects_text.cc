@@ -24,8 +24,6 @@ std::vector<CoordinateValue> values(const System& system, const Box& box) {
   return result;
 }
 
-const char* locus_name(std::size_t which) { return which == 0 ? "forward" : "inverse"; }
-
 // "4; 2 within aspect 1, 2 within aspect 2", "not looked for; the aspects are not exact".
 std::string cusps_line(const AspectCusps& cusps) {
   std::map<int, int> around;
@@ -163,7 +161,7 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   if (a.cusps) {
     if (a.cusps->looked_for[0] || a.cusps->looked_for[1]) json["cusps"] = Json::array();
     for (const AspectCusp& c : a.cusps->list) {
-      json["cusps"].push_back({{"locus", c.forward ? "forward" : "inverse"},
+      json["cusps"].push_back({{"locus", locus_name(c.forward ? 0 : 1)},
                                {"values", ends_of(values(a.system, c.at))},
                                {"around", or_null(c.around)},
                                {"between", or_null(c.between)}});

@@ -39,7 +39,7 @@ Clearance::Center center_of(const study::Question& question, const Ball& ball, c
   return holds_one ? Clearance::Center::assembled : Clearance::Center::unknown;
 }
 
-constexpr double kGivenAway = 1e-6;  // of the radius: so much of it the claims give away, for their own rounding
+constexpr double kGivenAway = 1e-6;  // of the radius: the share that the claims give away for their own rounding
 constexpr double kSigma = 1e-3;      // a witness is far narrower
 
 // The number as a decimal, which a model's text shows.

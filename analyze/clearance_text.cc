@@ -1,5 +1,4 @@
-// A clearance in words and as JSON.
-
+// A clearance and the best centre, in words and as JSON.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// What the JSON of analyses shares, and their files.
+// What the analyses' JSON has in common, and what their files have.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -56,8 +56,8 @@ Nearest nearest(const solve::Prepared& prepared, const std::vector<Polynomial>& 
 Cover search_briefly(System system, std::uint64_t solutions, std::uint64_t boxes, int threads,
                      const solve::Control& control);
 
-/// A solution that exists. In the search domain and satisfying the inequalities: for its free variables' values, which are
-/// points, exactly one solution in the sheet's region, and it lies in the image (certify::newton_prove).
+/// A solution that exists, in the search domain, and satisfies the inequalities: the only one in the sheet's region for its
+/// free variables' values, which are points. It lies in the sheet's image (certify::newton_prove).
 struct Witness {
   certify::Sheet sheet;
   std::vector<int> free;

@@ -11,7 +11,7 @@
 namespace corank::analyze {
 namespace {
 
-std::string counted(int n, const std::string& word) { return result::counted(n, word); }
+using result::counted;
 
 std::string components_text(const Components& c) {
   if (c.exact()) return counted(c.at_least, "component");

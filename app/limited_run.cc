@@ -15,14 +15,6 @@ namespace {
 
 std::function<double()> the_clock;  // empty: the machine's
 
-// Until the first box all is one piece of work: the model's equations, their reduction, what a search sets up. Later each
-// call of GiNaC is one.
-Watch::Work deaf_work(const solve::Control& control) {
-  constexpr Watch::Work kFirst = ~Watch::Work{0};
-  const bool before_search = control.stage() <= solve::Stage::search && !control.has_counted();
-  return control.stage() == solve::Stage::model || before_search ? kFirst : symbolic::GinacLock::holder();
-}
-
 std::string ended_by(const solve::Control& control) {
   const auto ending = control.ending();
   return ending ? to_string(ending->by) : "a limit";
@@ -40,6 +32,12 @@ std::string sentence(const solve::Control& control, const std::string& work) {
 }
 
 }  // namespace
+
+Watch::Work deaf_work(const solve::Control& control) {
+  constexpr Watch::Work kSetUp = ~Watch::Work{0};
+  const bool nothing_found = control.stage() <= solve::Stage::reduction && !control.has_counted();
+  return nothing_found ? kSetUp : symbolic::GinacLock::holder();
+}
 
 solve::Control::Limits of_command(solve::Control::Limits limits) {
   limits.stop = &Interrupt::stop();

@@ -23,10 +23,14 @@ class ClockOfCommands {
   ClockOfCommands& operator=(const ClockOfCommands&) = delete;
 };
 
+/// The piece of a run's work that may not end when it is asked to, for a Watch. Until the first search begins, all is one
+/// piece: the model's equations, their reduction, what the search sets up; nothing is found by then. Later each call of
+/// GiNaC is one.
+Watch::Work deaf_work(const solve::Control& control);
+
 /// Of a command whose answer is valid at any time. Everything that has a control ends soon after the limit of time or the
-/// first signal. Where Watch::kGrace later no search has begun, the program ends with a statement, by exit status
-/// kIncomplete: nothing was found by then, and no file is left half written. So it does where one call of GiNaC lasts that
-/// long.
+/// first signal. Where one piece of deaf_work() goes on for Watch::kGrace after that, the program ends with a statement, by
+/// exit status kIncomplete; no file is left half written.
 class LimitedRun {
  public:
   explicit LimitedRun(solve::Control::Limits limits);

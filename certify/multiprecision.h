@@ -85,7 +85,7 @@ class Real {
   mpfr_t x_;
 };
 
-/// Rounds outward.
+/// Rounds outward. A copy has as many bits as the original.
 class Range : public Mpfi {
  public:
   Range() : Range(0) {}

@@ -20,8 +20,8 @@ struct Preconditioner {
   int rank() const { return static_cast<int>(dependent.size()); }
 };
 
-/// For given dependent variables, of pieces whose chart is known: all m equations, these m dependents, Y the inverse of
-/// their Jacobian at the point, in floating point; 0 where it has none.
+/// Serves pieces whose chart is known; any choice is valid. All m equations, these m dependents, Y the inverse of their
+/// Jacobian at the point, in floating point; Y = 0 where there is no inverse.
 Preconditioner midpoint_preconditioner(const CompiledSystem& system, const std::vector<double>& point,
                                        const std::vector<int>& dependent);
 

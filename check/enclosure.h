@@ -1,6 +1,6 @@
 // The checker's intervals: MPFI at kBits bits, which rounds every operation outward. Nothing here is shared with
-// core/interval.h but doubles, and no rounding mode of the processor matters. Of core/mpfi.h, which certify/ has too, there
-// is the memory only: it holds two ends, and computes nothing.
+// core/interval.h but doubles, and no rounding mode of the processor matters. core/mpfi.h, which certify/ uses, too,
+// holds the memory of the two ends and computes nothing.
 //
 // The empty set is no Enclosure: what may yield it returns false or nothing.
 #pragma once

@@ -54,7 +54,7 @@ class ExactCheck {
   std::optional<int> rank(Rows rows, std::size_t columns) const;
   // Nothing where an entry is not known or not rational.
   std::optional<Rows> values(const PolynomialMatrix& matrix) const;
-  // c·Π factors but those of kind kernel; nothing where a value is not known or not rational.
+  // Nothing where a value is not known or not rational.
   std::optional<RationalPolynomial> value(const Monomial& m) const;
   std::optional<RationalPolynomial> value(const Polynomial& f) const;
   bool is_nonnegative(const RationalPolynomial& f) const { return f.empty() || enclose(f).is_positive(); }

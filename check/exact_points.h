@@ -12,13 +12,13 @@ namespace corank::check {
 
 class ExactPoints {
  public:
-  /// All have to outlive this. `types`: none where no labels are confirmed.
+  /// All have to outlive this. `types`: null where no labels can be confirmed.
   ExactPoints(const System& system, const Cover& cover, const TypeCheck* types, const StopFlag& stop)
       : system_(system), cover_(cover), types_(types), stop_(stop) {}
 
   /// Looks at the cover's next point: what could not be shown of it, or nothing.
   const std::string& check_next();
-  /// Has this point, which is confirmed, these types?
+  /// Is this point confirmed, and are these labels, too?
   bool has_types(int point, const TypeLabels& labels) const {
     return faults_[point].empty() && types_ && types_->of_point(labels, *points_[point]).empty();
   }

@@ -84,7 +84,7 @@ bool KernelCheck::has_rank(std::size_t s, const Sides& x) const {
       matrix[i].push_back(rows_[i][j].approximate(middle));
       sizes[i].push_back(entries[i][j].mag());
     }
-  const auto [rows, columns] = pivots(balanced(matrix, sizes), s);  // whatever the units of its entries
+  const auto [rows, columns] = pivots(balanced(matrix, std::move(sizes)), s);  // whatever the units of its entries
   if (rows.size() < s) return false;
   std::vector<double> minor;
   for (const std::size_t i : rows)

@@ -14,8 +14,8 @@ void drop_noise(std::vector<double>& y, std::size_t r);
 /// The inverse of a row-major r×r matrix in doubles; empty where it is singular to that precision.
 std::vector<double> inverse(const std::vector<double>& a, std::size_t r);
 
-/// Complete pivoting: rows and columns of a matrix that make a well-conditioned submatrix, so many at most, by pivots larger
-/// than `least`.
+/// Complete pivoting: rows and columns of a matrix that make a well-conditioned submatrix, at most `most` of each. Ends
+/// where no pivot is larger than `least`.
 struct Pivots {
   std::vector<int> rows, columns;
 };

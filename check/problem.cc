@@ -85,7 +85,8 @@ Sides Problem::kept(const Box& box) const {
 }
 
 bool Problem::is_end(const Condition& c) const {
-  if (c.implied || c.variable < 0) return !c.implied;
+  if (c.implied) return false;
+  if (c.variable < 0) return true;
   const Variable& v = system_.variables[c.variable];
   return !(v.kind == VariableKind::length && v.lower == v.upper);
 }

@@ -11,7 +11,7 @@
 
 namespace corank::check {
 
-/// Has it so many sides, all of them bounded?
+/// Has the box this number of sides, all of them bounded?
 bool is_box(const Box& box, std::size_t sides);
 
 /// One side of a variable's domain as a condition: row(x) ≥ 0 at every point of the set.
@@ -53,7 +53,8 @@ class Problem {
   const std::vector<Value>& values() const { return values_; }
   /// Both sides of every domain, then the inequalities.
   const std::vector<Condition>& conditions() const { return conditions_; }
-  /// May a solution in the domain come to where it is 0? Not if the equations imply it, or of a length of one value.
+  /// May a solution in the domain come to where its row is 0? Not where the equations imply it, nor at the ends of a length
+  /// that has one value.
   bool is_end(const Condition& c) const;
   /// Intersects with the domains that the equations imply: no solution is lost. False: that is empty.
   bool clip_to_implied(Sides& x) const;

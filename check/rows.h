@@ -18,7 +18,7 @@ class Row {
  public:
   /// place[j]: of variable j among the kept ones.
   Row(const Terms& f, const std::vector<int>& place);
-  /// Over all variables, so many.
+  /// Over all variables; `variables` is their number.
   Row(const Polynomial& f, int variables, double tolerance = 0);
 
   const std::vector<int>& columns() const { return columns_; }  ///< the variables of f, ascending
@@ -72,12 +72,13 @@ std::vector<int> variables_of(const RowMatrix& matrix);
 /// Of each variable the width of its domain, 1 where it has none: by their share of it sides of unlike units compare.
 std::vector<double> domain_lengths(const System& system);
 
-/// The halves of x, cut in the middle of the widest of these sides that can be cut, in lengths; nothing where none can.
+/// The halves of x, cut in the middle of one of these sides: of those that can be cut, the one that is widest in units of
+/// its length. Nothing where no side can be cut.
 std::optional<std::array<Sides, 2>> halved(const Sides& x, const std::vector<int>& sides,
                                            const std::vector<double>& lengths);
 
-/// Is it `shown` of x, or else of all parts into which it is halved so, so many at most? It may shrink a part to what
-/// matters.
+/// Is `shown` true of x, or else of all parts into which halved() divides it? It may shrink a part to what matters. False
+/// where more than `most_parts` parts are looked at, or one cannot be halved.
 bool shown_in_parts(Sides x, const std::vector<int>& sides, const std::vector<double>& lengths, int most_parts,
                     const StopFlag& stop, const std::function<bool(Sides&)>& shown);
 

@@ -25,7 +25,7 @@ class StopFlag {
   Ended ended_;
 };
 
-/// Work that may be stopped. False: it was.
+/// Does work that may be stopped, with rounding to nearest. False: it was stopped.
 template <class Work>
 bool finishes(const Work& work) {
   const NearestRounding nearest;

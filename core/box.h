@@ -29,12 +29,12 @@ inline bool intersect(std::span<Interval> box, std::span<const Interval> other) 
   return true;
 }
 
-/// Of boxes of as many sides: have they a point in common?
+/// Have two boxes with the same number of sides a point in common?
 inline bool overlap(std::span<const Interval> a, std::span<const Interval> b) {
   return std::equal(a.begin(), a.end(), b.begin(), [](const Interval& x, const Interval& y) { return x.overlaps(y); });
 }
 
-/// The variables, of so many, that are not in the list; ascending.
+/// Those of the variables 0 … variables − 1 that are not in the list, ascending.
 inline std::vector<int> all_but(std::span<const int> list, int variables) {
   std::vector<int> others;
   for (int j = 0; j < variables; ++j)

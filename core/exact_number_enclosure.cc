@@ -155,8 +155,8 @@ bool narrow(const Mpfi& x) {
 
 Interval outward(const Mpfi& x) { return {mpfr_get_d(x.lower(), MPFR_RNDD), mpfr_get_d(x.upper(), MPFR_RNDU)}; }
 
-// The first answer that is found in enclosures of x with `bits`, twice as many … bits, `last` at most. `found` says nothing
-// where more bits are to decide, unless it is told that there will be none.
+// The first answer of `found` about an enclosure of x. The first enclosure has `bits` bits, each further one twice as many,
+// the last one at most `last`. `found` is told which is the last; of the others it says nothing if more bits are to decide.
 template <class Found>
 auto in_enclosures(const ExactNumber& x, int bits, int last, Found found) {
   const NearestRounding nearest;

@@ -22,7 +22,7 @@ struct Factor {
   friend auto operator<=>(const Factor&, const Factor&) = default;
 };
 
-/// A product of factors, sorted by variable, each variable once; none: 1.
+/// A product of factors, sorted by variable, each variable once; without factors it is 1.
 using Factors = std::vector<Factor>;
 
 /// coefficient · Π factors.

@@ -15,7 +15,7 @@
 
 namespace corank::report {
 
-/// So much coarser than in corank solve is the default of sigma: there are many pictures on the page, and they are small.
+/// The default of sigma is coarser than in corank solve by this factor: a page has many pictures, and they are small.
 inline constexpr double kFamilyCoarser = 2;
 
 struct FamilyMember {

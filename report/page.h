@@ -13,8 +13,8 @@
 
 namespace corank::report {
 
-/// Of each search for a page, which is to be there within a minute and to open in a browser: limits of seconds and of boxes
-/// found; digits of isolated points.
+/// A page is to be there within a minute, and to open in a browser. Of each of its searches: the limits of seconds and of
+/// boxes found, and the digits of isolated points.
 inline constexpr int kPageSeconds = 8, kPageBoxes = 200'000, kPageDigits = 12;
 
 struct PageOptions {

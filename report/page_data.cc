@@ -176,6 +176,14 @@ std::string sides_payload(std::span<const CoverBox> boxes, std::size_t outputs) 
   return base64_of(numbers);
 }
 
+// The float below or equal, above or equal.
+float float_below(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+
+float float_above(double x) { return -float_below(-x); }
+
 }  // namespace
 
 ConstantValues constant_values(const symbolic::Mechanism& mechanism) {
@@ -196,13 +204,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   }
   return text;
 }
-
-float float_below(double x) {
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
-
-float float_above(double x) { return -float_below(-x); }
 
 std::string box_payload(std::span<const CoverBox> boxes) {
   std::vector<int> all(boxes.empty() ? 0 : boxes.front().box.size());

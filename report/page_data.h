@@ -26,10 +26,6 @@ std::string base64(std::span<const std::uint8_t> bytes);
 /// count.
 std::string script_safe(std::string json);
 
-/// The float below or equal, above or equal.
-float float_below(double x);
-float float_above(double x);
-
 /// Little-endian floats, box after box: lower and upper bound of each variable in turn.
 std::string box_payload(std::span<const CoverBox> boxes);
 /// The same of these variables only.

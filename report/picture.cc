@@ -90,6 +90,13 @@ PictureAxis axis(const PictureSource& source, const Coordinate& from, const std:
   return {.name = names.empty() ? "x" + name : names.at(from.variable)};
 }
 
+// What the layers of a source are called and coloured where colours tell sets apart.
+struct SetStyle {
+  std::string label;
+  Color color;
+  double opacity = 1;
+};
+
 // The layer a box belongs to.
 PictureLayer layer_of(const PictureSource& source, const SetStyle& style, ColorScheme scheme,
                       std::optional<Verdict> verdict) {
@@ -184,6 +191,28 @@ SetStyle set_style(const PictureSource& source) {
           set.is_cspace() && source.dimension > 1 ? 0.4 : 1.0};
 }
 
+// Several sources of one set get their files' names and shades of its colour; several of other sets, colours of their own.
+std::vector<SetStyle> set_styles(const std::vector<const PictureSource*>& sources) {
+  static constexpr std::array<Color, 4> kOthers{
+      {{0.35, 0.45, 0.58}, {0.85, 0.50, 0.10}, {0.15, 0.55, 0.40}, {0.55, 0.35, 0.25}}};
+  std::vector<SetStyle> styles;
+  for (const PictureSource* source : sources) styles.push_back(set_style(*source));
+  std::size_t others = 0;
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const auto same = [&](const PictureSource* s) { return s->set == sources[k]->set; };
+    if (!symbolic::definition(sources[k]->set).set) {
+      styles[k].color = kOthers[others++ % kOthers.size()];
+    } else if (std::count_if(sources.begin(), sources.end(), same) > 1) {
+      const double light =
+          1 - std::pow(0.65, std::count_if(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(k), same));
+      styles[k].label += " (" + std::filesystem::path(sources[k]->file).stem().string() + ")";
+      for (double* channel : {&styles[k].color.red, &styles[k].color.green, &styles[k].color.blue})
+        *channel += light * (0.95 - *channel);
+    }
+  }
+  return styles;
+}
+
 }  // namespace
 
 Interval drawn_angle(const Interval& c, const Interval& s, const Interval& range) {
@@ -263,27 +292,6 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
 
 bool is_empty(const Picture& picture) {
   return std::all_of(picture.layers.begin(), picture.layers.end(), [](const PictureLayer& l) { return l.boxes.empty(); });
-}
-
-std::vector<SetStyle> set_styles(const std::vector<const PictureSource*>& sources) {
-  static constexpr std::array<Color, 4> kOthers{
-      {{0.35, 0.45, 0.58}, {0.85, 0.50, 0.10}, {0.15, 0.55, 0.40}, {0.55, 0.35, 0.25}}};
-  std::vector<SetStyle> styles;
-  for (const PictureSource* source : sources) styles.push_back(set_style(*source));
-  std::size_t others = 0;
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    const auto same = [&](const PictureSource* s) { return s->set == sources[k]->set; };
-    if (!symbolic::definition(sources[k]->set).set) {
-      styles[k].color = kOthers[others++ % kOthers.size()];
-    } else if (std::count_if(sources.begin(), sources.end(), same) > 1) {
-      const double light =
-          1 - std::pow(0.65, std::count_if(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(k), same));
-      styles[k].label += " (" + std::filesystem::path(sources[k]->file).stem().string() + ")";
-      for (double* channel : {&styles[k].color.red, &styles[k].color.green, &styles[k].color.blue})
-        *channel += light * (0.95 - *channel);
-    }
-  }
-  return styles;
 }
 
 Color verdict_color(std::optional<Verdict> verdict) {

@@ -82,15 +82,6 @@ struct Picture {
   std::vector<PictureLayer> layers;        ///< in the order of drawing: C-space before its subsets
 };
 
-/// What the layers of a source are called and coloured where colours tell sets apart.
-struct SetStyle {
-  std::string label;
-  Color color;
-  double opacity = 1;
-};
-/// Several sources of one set get their files' names and shades of its colour; several of other sets, colours of their own.
-std::vector<SetStyle> set_styles(const std::vector<const PictureSource*>& sources);
-
 /// What the colours tell apart: sets, verdicts, or nothing (all blue).
 enum class ColorScheme { set, verdict, plain };
 

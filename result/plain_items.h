@@ -19,12 +19,14 @@ enum class ItemType : std::uint8_t { float64, float32, int64, uint64, int32, uin
 inline constexpr int kItemTypes = 8;
 /// As which of them a number is stored.
 template <class T>
-constexpr ItemType item_type() {
+consteval ItemType item_type() {
   if (std::is_same_v<T, double>) return ItemType::float64;
   if (std::is_same_v<T, float>) return ItemType::float32;
   if (std::is_same_v<T, std::int64_t>) return ItemType::int64;
   if (std::is_same_v<T, std::uint64_t>) return ItemType::uint64;
-  return std::is_same_v<T, std::int32_t> ? ItemType::int32 : ItemType::uint8;
+  if (std::is_same_v<T, std::int32_t>) return ItemType::int32;
+  if (std::is_same_v<T, std::uint8_t>) return ItemType::uint8;
+  throw std::invalid_argument("files hold no such numbers");  // ends the compilation
 }
 
 struct Item {

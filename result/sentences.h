@@ -24,10 +24,10 @@ std::optional<Sample> sample(const Result& result);
 /// contradict each other. Empty for a set with boxes.
 std::vector<std::string> assembly_sentences(const Result& result);
 
-/// Fills result.domain and result.motions for the system that was solved; nothing of a result that is of another system. Of
-/// each self-motion a clause such as "with the input locked at t1 = 0, t2 turns freely: t3 = t2", angles up to full turns.
-/// It says what follows exactly from the relations and those of the system's equations that they make linear; "freely" where
-/// no other equation is about the coordinate but its circle, and the kernel's.
+/// Fills result.domain and result.motions for the system that was solved; they are empty for a result of another system. Of
+/// each self-motion there is a clause such as "with the input locked at t1 = 0, t2 turns freely: t3 = t2", angles up to full
+/// turns. It says what follows exactly from the relations and those of the system's equations that they make linear;
+/// "freely" where no other equation is about the coordinate but its circle, and the kernel's.
 void describe_in_words(const symbolic::Mechanism& mechanism, const System& system, Result& result);
 /// The part of it that is about ranges.
 void describe_domain(const symbolic::Mechanism& mechanism, const System& system, Result& result);

@@ -32,7 +32,7 @@ File read_certificate(const std::filesystem::path& path, const CertificateKind& 
   return data;
 }
 
-constexpr auto kConstant = [](auto& field, auto& constant) {
+inline constexpr auto kConstant = [](auto& field, auto& constant) {
   field("names", constant.name);
   field("expressions", constant.expression);
 };

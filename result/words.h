@@ -40,10 +40,9 @@ std::string capitalized(std::string sentence);
 /// ±1e-12); one number where both ends agree.
 std::string outward_text(const Interval& x, int digits);
 
-/// Text from files on a terminal, which nothing that a file holds may steer:
-/// the text with all that a terminal may obey made visible: control characters but line feeds and tabs, U+0080 to U+009F,
-/// the marks that turn the direction of text, and bytes that are no UTF-8, as "\x1b" or "\u202e". Other text is returned as
-/// it is.
+/// For text from files: nothing in it may steer a terminal. What a terminal may obey becomes visible, as "\x1b" or "\u202e":
+/// control characters but line feeds and tabs, U+0080 to U+009F, the marks that turn the direction of text, and bytes that
+/// are no UTF-8. Other text is returned as it is.
 std::string printable(std::string_view text);
 
 /// The same for a text within one line: line feeds and tabs are made visible, too.

@@ -131,7 +131,10 @@ void give_memory_back() {
 
 // By their sides in the variables that were kept, then by what is claimed of them (solve/box_order.h).
 void sort(std::vector<Found*>& found) {
-  found.size() < kManyToSort ? sort_by_keys<kKeyEnds>(found) : sort_by_keys<kKeyEndsOfMany>(found);
+  if (found.size() < kManyToSort)
+    sort_by_keys<kKeyEnds>(found);
+  else
+    sort_by_keys<kKeyEndsOfMany>(found);
 }
 
 // Numbers the regions of the boxes' proofs by the first box that has each, and returns them in all variables.

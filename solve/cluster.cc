@@ -44,7 +44,7 @@ struct Coordinator::Search {
         run(of_run ? *of_run : unlimited),
         memory(prepared.reduction, run.limits().later_bytes),
         tally(prepared, control, 0),
-        judge(prepared, tally, last_number()) {
+        judge(prepared, tally, number_of_judge()) {
     if (!from) state.first = state.pass = first_pass(prepared);
     if (!prepared.reduction.consistent) {  // there is nothing to search
       state.pass.boxes.clear();
@@ -52,7 +52,7 @@ struct Coordinator::Search {
       state.sigma = sigma_of_search(prepared, judge.problem());
     }
     for (Shard& shard : state.shards) parts.push_back(std::make_unique<Part>(Part{std::move(shard), {}, {}}));
-    next_id = last_number() / kNumbersOfUnit + 2;  // the judge has one of its own
+    next_id = number_of_judge() / kNumbersOfUnit + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
     judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
     if (state.cutting) list_sheets();
@@ -62,11 +62,8 @@ struct Coordinator::Search {
   }
   ~Search() { run.keep(-kept); }
 
-  ShardNumber last_number() const {
-    ShardNumber last = 0;
-    for (const Shard& shard : state.shards) last = std::max(last, shard.number);
-    return (last / kNumbersOfUnit + 1) * kNumbersOfUnit;
-  }
+  // Behind which the judge's own numbers are.
+  ShardNumber number_of_judge() const { return (last_number(state.shards) / kNumbersOfUnit + 1) * kNumbersOfUnit; }
 
   std::vector<Shard*> all_shards() {
     std::vector<Shard*> all = judge.shards();
@@ -214,8 +211,6 @@ Coordinator::Coordinator(std::string prepared, std::optional<std::string> from, 
 Coordinator::~Coordinator() = default;
 
 const std::string& Coordinator::prepared_bytes() const { return search_->prepared_text; }
-std::size_t Coordinator::under_way() const { return search_->under_way.size(); }
-bool Coordinator::cutting() const { return search_->state.cutting; }
 bool Coordinator::ended() { return search_->ended(); }
 bool Coordinator::done() const {
   return search_->state.cutting && search_->open_sheets.empty() && search_->under_way.empty();
@@ -224,8 +219,9 @@ bool Coordinator::done() const {
 double Coordinator::share_done() const { return std::clamp(1 - search_->share_that_waits(), 0.0, 1.0); }
 
 Pace::Units Coordinator::next_units(std::size_t threads, double longest, double time) {
-  if (cutting()) return Pace::of_sheets(threads, longest);
-  return search_->pace.next(threads, longest, {search_->passes, search_->share_that_waits(), under_way(), time});
+  Search& s = *search_;
+  if (s.state.cutting) return Pace::of_sheets(threads, longest);
+  return s.pace.next(threads, longest, {s.passes, s.share_that_waits(), s.under_way.size(), time});
 }
 
 std::vector<std::string> Coordinator::take_units(std::size_t wanted, std::size_t fewest_boxes) {

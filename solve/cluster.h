@@ -42,10 +42,10 @@ inline constexpr int kMostUnitThreads = 31;
 /// So many numbers of shards are each unit's own: those of its search, then those of its cutting.
 inline constexpr ShardNumber kNumbersOfUnit = 2 * (kMostUnitThreads + 1);
 
-/// Runs units of a Coordinator; what units of one search share is made once. Of one thread.
+/// Runs units of one Coordinator. What they share is made once. For one thread.
 class UnitRunner {
  public:
-  /// Both throw ShardError where the bytes are none, or of another version.
+  /// This and run() throw ShardError where the bytes cannot be read, or are of another version.
   explicit UnitRunner(std::string_view prepared);
   std::string run(std::string_view unit, const Budget& budget = {});
 
@@ -77,13 +77,9 @@ class Coordinator {
   /// is done: in the bytes that `owner` keeps where they are, or else in a copy.
   bool add(std::string_view answer, std::shared_ptr<const void> owner = {});
   bool done() const;
-  /// The search is done, and sheets are left to cut.
-  bool cutting() const;
   /// A limit of the control has ended the search before it was done: nothing more is given out. Answers to what is under way
   /// may still be added.
   bool ended();
-  /// So many units have been given out and not been added.
-  std::size_t under_way() const;
   /// Of the search domain: the share that is done with.
   double share_done() const;
   /// For a checkpoint (solve::SearchState): units that are under way count as not begun.

@@ -1,5 +1,5 @@
-// Multiples of equations as rows modulo a prime: what linear elimination finds among them holds of the equations with luck
-// only, and is formed in exact arithmetic by whoever uses it (certify/reduction.h).
+// Multiples of equations as rows modulo a prime. What linear elimination finds among them holds of the equations with luck
+// only: certify/reduction.h forms it in exact arithmetic.
 #pragma once
 
 #include <map>

@@ -8,7 +8,7 @@
 namespace corank::solve {
 
 // Of the rows from `from` on that are not 0 in the column the one with the fewest entries; the number of rows where there is
-// none.
+// no such row.
 std::size_t PrimeMatrix::lightest_row(std::size_t from, std::size_t column) {
   const std::size_t rows = nmod_mat_nrows(m_), columns = nmod_mat_ncols(m_);
   std::size_t lightest = rows, least = columns + 1;
@@ -21,7 +21,7 @@ std::size_t PrimeMatrix::lightest_row(std::size_t from, std::size_t column) {
   return lightest;
 }
 
-// From the row `from` a multiple of the pivot's, which is 1 in the column and 0 before it.
+// Subtracts a multiple of row `pivot`, which is 1 in the column and 0 before it, from row `from`: that becomes 0 there.
 void PrimeMatrix::subtract(std::size_t pivot, std::size_t from, std::size_t column) {
   const mp_limb_t c = at(from, column);
   if (c != 0)
@@ -31,7 +31,7 @@ void PrimeMatrix::subtract(std::size_t pivot, std::size_t from, std::size_t colu
 
 bool PrimeMatrix::reduce(const Ended& ended) {
   const std::size_t rows = nmod_mat_nrows(m_), columns = nmod_mat_ncols(m_);
-  std::vector<std::size_t> pivots;  // of the rows, one after the other
+  std::vector<std::size_t> pivots;  // columns of the first rows' leading ones
   for (std::size_t j = 0; j < columns && pivots.size() < rows; ++j) {
     if (is_over(ended)) return false;
     const std::size_t top = pivots.size(), lightest = lightest_row(top, j);

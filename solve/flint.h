@@ -67,8 +67,8 @@ class PrimeMatrix {
   PrimeMatrix(const PrimeMatrix&) = delete;
   PrimeMatrix& operator=(const PrimeMatrix&) = delete;
   mp_limb_t& at(std::size_t i, std::size_t j) { return nmod_mat_entry(m_, i, j); }
-  /// To reduced row echelon form, by steps for few rows, which suits the sparse matrices of equations, and can be ended:
-  /// false where it was, and the matrix is of no use.
+  /// To reduced row echelon form. Of the possible pivot rows each step takes the one with the fewest entries, since the
+  /// matrices of equations are sparse. False: `ended` has become true, and the matrix is of no use.
   bool reduce(const Ended& ended);
 
  private:

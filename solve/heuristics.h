@@ -1,5 +1,5 @@
-// The numbers by which a search decides what to try, in one place. What is proven does not depend on any of them, how many
-// boxes it takes does: those marked * were measured (bench/HISTORY.md).
+// The numbers by which a search decides what to try, in one place. What is proven does not depend on any of them; how many
+// boxes a proof takes does. Those marked * were measured (bench/HISTORY.md).
 #pragma once
 
 #include <algorithm>
@@ -41,8 +41,8 @@ inline constexpr std::size_t kTurns = 8;         ///< of all rows, at most
 inline constexpr int kDomainRuns = 8;            ///< of projections over the search domain
 /// Of a side: what rounding alone makes as wide is divided in vain. Sides below kNarrow of the widest one do not count.
 inline constexpr double kNoise = 0.5, kRegularNoise = 8, kNarrow = 1e-3;
-/// Pivots below this share of a row's largest entry count as zero, each times its variable's scale; near a solution of
-/// redundant equations; where their coefficients are rounded.
+/// Pivots below this share of a row's largest entry, each times its variable's scale, count as zero: as a rule; near a
+/// solution of redundant equations; where their coefficients are rounded.
 inline constexpr double kRankTolerance = 1e-9, kRedundantRankTolerance = 1e-7, kRoundedRankTolerance = 1e-4;
 inline constexpr int kGaussNewtonSteps = 8;  ///< to where the rank of redundant equations shows
 inline constexpr double kChartGain = 1.05;   ///< of a proof's volume: an exchange of free variables costs an elimination
@@ -53,7 +53,7 @@ inline constexpr int kMostExchanges = 16;
 inline constexpr double kBisectionPoint = 0.47;
 inline constexpr double kLeastSmear = 1e-6;   ///< a variable that no equation holds has its turn, too
 inline constexpr double kAloneWeight = 1000;  ///< of a variable with an equation of its own: before all others *
-/// So many unknowns of a kernel vector wait for the configuration. *
+/// A kernel vector of this many unknowns or more waits for the configuration. *
 inline constexpr int kManyUnknowns = 6;
 inline constexpr double kLateWeight = 0.01, kLatePatience = 100;
 
@@ -66,10 +66,10 @@ inline constexpr double kReach = 8;      ///< of a box's size: how far from it a
 inline constexpr double kTiny = 1e-6;  ///< what is regular and yet not proven in such a box is next to a degenerate solution
 inline constexpr double kFinestShare = 1e-13;  ///< doubles resolve little more
 inline constexpr double kNoisySize = 2e-3;     ///< in larger boxes it is the choice of Y that makes noise
-inline constexpr double kPartialShare = 0.05;  ///< as wide as a box is that nobody says a σ of
+inline constexpr double kPartialShare = 0.05;  ///< the width of a box for which nobody says a σ
 inline constexpr int kPartialDepth = 8;        ///< halvings of a piece on which redundant equations are bounded
 inline constexpr int kLocalSteps = 40;         ///< of Gauss and Newton: a double solution is approached by halves
-inline constexpr double kStill = 1e-11;        ///< a shorter step is none
+inline constexpr double kStill = 1e-11;        ///< a shorter step ends them
 
 // Sets of degenerate solutions (degeneracy.h); sizes of boxes
 inline constexpr double kPointShare = 1e-7, kOtherShare = 1.0 / 400;  ///< the last of the sizes
@@ -79,14 +79,14 @@ inline constexpr double kWideExtent = 0.25;         ///< reaches no cluster arou
 inline constexpr std::size_t kProbes = 8;           ///< of a cluster
 inline constexpr int kDirections = 3;               ///< of a probe
 inline constexpr double kProbeStep = 0.5;           ///< in box sizes of the first level
-inline constexpr double kCloseShare = 1e-4;         ///< so near is every equation's zero to what may be a solution
+inline constexpr double kCloseShare = 1e-4;         ///< how near to a possible solution every equation's zero is
 inline constexpr double kSolutionTolerance = 1e-6;  ///< of singular values, at the solutions themselves
 inline constexpr double kDoublesEnd = 1e-11;
 inline constexpr double kMotionRankTolerance = 1e-6;
 inline constexpr int kMotionAttempts = 4;           ///< in a cluster, without success
 inline constexpr std::size_t kManyAlongASet = 400;  ///< dividing them makes too many
-/// Whatever they are along, if they have become so many times more since boxes were four times as large: around points their
-/// number hardly grows, along a curve by four.
+/// More boxes are too many, whatever they are along, once there are kGrowth times as many as when they were four times as
+/// large: around points their number hardly grows, along a curve by four.
 inline constexpr std::size_t kTooManyBoxes = 30'000, kGrowth = 2;
 
 // Samples of a self-motion (self_motion_search.h). Doubles find solutions at which the rank drops to a few digits only. What
@@ -119,7 +119,7 @@ inline constexpr int kMostSlabs = 3;                 ///< more parts than that: 
 inline constexpr int kMostPartsAtOnce = 81;          ///< of a piece with many free sides: the other sides wait
 
 // Cells of parameters (cell_search.h)
-inline constexpr double kFollow = 2.5;         ///< so many times as wide as solutions move a side is not worth bisecting
+inline constexpr double kFollow = 2.5;         ///< of how far solutions move: a narrower side is not worth bisecting
 inline constexpr double kLeastMovement = 0.5;  ///< of what moves most: what hardly moves is bisected in vain
 inline constexpr double kFinestCell = 1e-8;
 

@@ -189,7 +189,7 @@ class Finder {
     return result;
   }
 
-  // Sums of few terms: those given, and of each two, made as short as they get; some of them where the run has ended.
+  // Sums of few terms: those given, and of each two, made as short as they get. Once the run has ended some are missing.
   std::vector<Sum> short_ones(std::vector<Sum> sums) const {
     for (Sum& s : sums) {
       if (is_over(ended_)) return {};

@@ -11,15 +11,6 @@
 #include "corank/core/rounding.h"
 
 namespace corank::solve {
-namespace {
-
-ShardNumber last_of(const std::vector<Shard>& shards) {
-  ShardNumber last = 0;
-  for (const Shard& shard : shards) last = std::max(last, shard.number);
-  return last;
-}
-
-}  // namespace
 
 Pool::Pool(const Prepared& prepared, Tally& tally, ShardNumber last_shard, const Problem* like)
     : prepared_(prepared),
@@ -38,7 +29,8 @@ Pool::Pool(const Prepared& prepared, Tally& tally, ShardNumber last_shard, const
   };
 }
 
-Pool::Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier) : Pool(prepared, tally, last_of(earlier)) {
+Pool::Pool(const Prepared& prepared, Tally& tally, std::vector<Shard> earlier)
+    : Pool(prepared, tally, last_number(earlier)) {
   earlier_ = std::move(earlier);
   for (const Shard& shard : earlier_) {
     Tally::Counted counted;
@@ -63,7 +55,10 @@ void Pool::work(WorkList list, const Work& of) {
   std::optional<Recorder>& script = worker.shard.script;
   const auto take_next = [&] {
     Waiting next = std::move(of.until > 0 ? list.front() : list.back());
-    of.until > 0 ? list.pop_front() : list.pop_back();
+    if (of.until > 0)
+      list.pop_front();
+    else
+      list.pop_back();
     return next;
   };
   Box given;

@@ -13,12 +13,10 @@
 #include <optional>
 #include <vector>
 
-#include "corank/core/interval.h"
 #include "corank/core/threads.h"
 #include "corank/solve/box_processor.h"
 #include "corank/solve/options.h"
 #include "corank/solve/problem.h"
-#include "corank/solve/recorder.h"
 #include "corank/solve/shard.h"
 #include "corank/solve/tally.h"
 

@@ -31,8 +31,8 @@ class PreconditionerFactory {
   bool over() const { return over_; }
   /// The result of the last call of either.
   const certify::Preconditioner& last() const { return result_; }
-  /// The dependent variables to choose instead, sorted: those of the Chart of largest volume in units of
-  /// `sizes`.
+  /// The dependent variables to choose instead, sorted: those of the Chart of largest volume in units
+  /// of `sizes`.
   std::vector<int> chart_of_last(const std::vector<double>& sizes, double gain) const;
   /// After either: ∂(dependent a)/∂(free j) of the linearized system, r×n row-major, 0 for dependent columns.
   double sensitivity(int a, int j) const { return a >= result_.rank() ? 0 : -tableau_[result_.equations[a] * stride_ + j]; }

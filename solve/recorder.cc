@@ -150,21 +150,22 @@ Proof Recorder::assemble(const std::vector<const Recorder*>& recorders, std::vec
 
   const auto copy = [&](std::size_t thread, const Node& node) {
     const Recorder& from = *recorders[thread];
-    auto integer = from.script_.integers.begin() + static_cast<std::ptrdiff_t>(node.begin.integer);
-    auto real = from.script_.reals.begin() + static_cast<std::ptrdiff_t>(node.begin.real);
+    const std::int32_t* integer = from.script_.integers.data() + node.begin.integer;
+    const double* real = from.script_.reals.data() + node.begin.real;
     for (std::size_t s = node.begin.step; s < node.end.step; ++s) {
       const Step kind = static_cast<Step>(from.script_.steps[s]);
-      const auto [integers, reals] = size_of_step(kind, std::to_address(integer));
+      CORANK_CHECK(kind != Step::root);  // which edits of covers make
+      const auto [integers, reals] = size_of_step(kind, integer);
       proof.steps.push_back(from.script_.steps[s]);
-      proof.integers.insert(proof.integers.end(), integer, integer + static_cast<std::ptrdiff_t>(integers));
-      proof.reals.insert(proof.reals.end(), real, real + static_cast<std::ptrdiff_t>(reals));
+      proof.integers.insert(proof.integers.end(), integer, integer + integers);
+      proof.reals.insert(proof.reals.end(), real, real + reals);
       if (kind == Step::box) proof.integers.back() = place.at(from.leaf(*integer));
       if (kind == Step::newton) {  // numbered as they are used, whichever thread has recorded them
         proof.integers.back() = static_cast<std::int32_t>(proof.combinations.size());
         proof.combinations.push_back(from.script_.combinations[*integer]);
       }
-      integer += static_cast<std::ptrdiff_t>(integers);
-      real += static_cast<std::ptrdiff_t>(reals);
+      integer += integers;
+      real += reals;
     }
   };
   for (const NodeId root : nodes) {

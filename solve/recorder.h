@@ -26,7 +26,7 @@ struct NodeId {
 /// A leaf `box i` of a script: which of the boxes that a shard has found.
 using LeafId = NodeId;
 
-/// So many integers and reals belong to a step of a script, whose integers begin there.
+/// How many integers and reals belong to a step of a script. `integers`: where its own begin.
 struct StepSize {
   std::size_t integers, reals;
 };

@@ -94,7 +94,7 @@ Shortening shortening(const Polynomial& f, const Polynomial& g) {
   return best;
 }
 
-// rows[row] + factor · rows[other] has so many terms fewer than rows[row]; saved = 0: there is no such pair.
+// `saved`: how many terms fewer than rows[row] the sum rows[row] + factor · rows[other] has; 0: there is no such pair.
 struct BestShortening {
   std::size_t row = 0, other = 0;
   ExactNumber factor;

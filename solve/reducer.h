@@ -2,8 +2,8 @@
 //
 // - Variables that an equation ties to one other, or to a number, are replaced; so are those that only one equation has.
 // - Products that several equations share are eliminated by sums of equations (solve/product_elimination.h).
-// - A multiple of one equation is added to another where that leaves fewer terms: shorter equations are
-//   tighter over boxes. The rows of a kernel condition that speak of the same velocity are such.
+// - A multiple of one equation is added to another where that leaves fewer terms: shorter equations are tighter over boxes.
+//   The rows of a kernel condition that speak of the same velocity are such.
 // Numbers of more than 2,000 bits are left alone: exact arithmetic with them takes minutes, and intervals of doubles gain
 // nothing by it.
 #pragma once
@@ -23,8 +23,8 @@ enum class Eliminate {
 };
 
 /// Throws std::invalid_argument where the system is not valid. Once `ended` is true the reduction is given up: the result is
-/// the system as it is, without any step, which is a reduction, too. `parameters`: variables for whose every value the
-/// question is asked, which are kept.
+/// the system as it is, without any step, which is a reduction, too. `parameters`: variables that are
+/// kept, since the question is asked for each of their values.
 certify::Reduction reduce(const System& system, Eliminate eliminate, const Ended& ended = {},
                           const std::vector<int>& parameters = {});
 

@@ -1,6 +1,7 @@
 // Parts of a search as plain values: boxes to search go in, what was found in them comes out, whoever runs it and where.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -68,6 +69,13 @@ struct Shard {
   };
   Mark mark() const { return {sheets.size(), found.size(), script ? script->mark() : Recorder::Mark{}}; }
 };
+
+/// The largest of their numbers; 0 where there are no shards.
+inline ShardNumber last_number(const std::vector<Shard>& shards) {
+  ShardNumber last = 0;
+  for (const Shard& shard : shards) last = std::max(last, shard.number);
+  return last;
+}
 
 /// A part of a search to be run somewhere, and what was found in it.
 struct Unit {

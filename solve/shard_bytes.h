@@ -39,9 +39,8 @@ std::string to_bytes(const Unit& unit);
 std::string to_bytes(const Answer& answer);
 std::string to_bytes(const SearchView& state);
 void write(std::ostream& out, const SearchView& state);
-/// The same value again, to the last bit. Throw ShardError, also where a box of what is read has another number of sides
-/// than the question has variables, or an index names nothing. What is read is as trustworthy as who has written it: it says
-/// what is proven.
+/// The same value again, to the last bit. They throw ShardError, also where a box does not have the sides of the question's
+/// variables, or an index names nothing. What is read says what is proven, and is as trustworthy as its writer.
 Prepared prepared_from(std::string_view bytes);
 Unit unit_from(std::string_view bytes, const Prepared& prepared);
 /// The bytes stay where they are, as long as the answer is there.

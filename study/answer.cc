@@ -55,6 +55,15 @@ void describe_states(const kinematics::Assembly& assembly, result::Result& resul
   }
 }
 
+result::Result answer_one(const Question& question, const System& system, const Options& options, solve::Control& control,
+                          RunJournal* journal) {
+  const Asked asked = prepare(question, system, options, control);
+  const solve::Prepared& prepared = asked.prepared;
+  Cover cover = journal ? solve::solve_on(prepared, control, journal, journal->next_search(prepared))
+                        : solve::solve(prepared, control);
+  return finish(question, system, options, asked, std::move(cover), control);
+}
+
 }  // namespace
 
 void describe_corank(const System& system, result::Result& result) {
@@ -124,12 +133,8 @@ result::Result answer(const Systems& systems, const Options& options, solve::Con
   if (journal) journal->expect(parts.size());
   CORANK_CHECK(!parts.empty() && parts.size() == of_parts.size());
   std::vector<result::Result> results;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Asked asked = prepare(parts[i], of_parts[i], options, control);
-    Cover cover = journal ? solve::solve_on(asked.prepared, control, journal, journal->next_search(asked.prepared))
-                          : solve::solve(asked.prepared, control);
-    results.push_back(finish(parts[i], of_parts[i], options, asked, std::move(cover), control));
-  }
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    results.push_back(answer_one(parts[i], of_parts[i], options, control, journal));
   result::Result result = join(parts, std::move(results));
   search_assembly(parts.front(), control, result);
   return result;
@@ -137,7 +142,9 @@ result::Result answer(const Systems& systems, const Options& options, solve::Con
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
                       RunJournal* journal) {
-  return answer(Systems{{question}, {system}}, options, control, journal);
+  result::Result result = answer_one(question, system, options, control, journal);
+  search_assembly(question, control, result);
+  return result;
 }
 
 std::optional<VelocityBlocks> type_blocks(const Question& q) {
