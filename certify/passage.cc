@@ -123,9 +123,14 @@ std::optional<IntervalMatrix> PassageTest::reduce(const Box& box, const Basis& b
   return congruent(h, *w);
 }
 
+Interval PassageTest::along(const std::vector<double>& side, const Box& box) const {
+  Interval sum;
+  for (std::size_t i = 0; i < side.size(); ++i) sum += scale(side[i], value(normal(static_cast<int>(i)), box));
+  return sum;
+}
+
 bool PassageTest::holds(const Claim& claim, const Box& box) const {
-  Interval along;  // n·side
-  for (std::size_t i = 0; i < claim.side.size(); ++i) along += scale(claim.side[i], value(normal(static_cast<int>(i)), box));
+  const Interval along = this->along(claim.side, box);
   const bool barrier = claim.passage == Passage::barrier;
   // Hypothesis (1), and of a barrier that −sign·n is on the side named.
   if (along.contains_zero() || (barrier && (claim.sign > 0) != (along.hi() < 0))) return false;
@@ -159,7 +164,7 @@ bool PassageTest::holds(const Claim& claim, Box box, int halvings) const {
   return halves && std::ranges::all_of(*halves, [&](const Box& half) { return holds(claim, half, halvings - 1); });
 }
 
-// What the form looks like at the midpoint.
+// What the form looks like at the midpoint, and a side for all of the box.
 PassageTest::Claim PassageTest::guess(const Box& box) const {
   Box middle_box;
   for (const Interval& side : box) middle_box.emplace_back(side.mid());
@@ -178,11 +183,13 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
     if (!values.allFinite()) return claim;
     for (const double x : values) count(x);
   }
+  for (int i = 0; i < static_cast<int>(form_->normal.size()); ++i) claim.side.push_back(value(normal(i), middle_box).mid());
+  // Outputs of unlike units: the one whose numbers are largest may steer the normal, and have no sign over the box.
+  if (along(claim.side, box).contains_zero())
+    for (std::size_t i = 0; i < claim.side.size(); ++i)
+      if (value(normal(static_cast<int>(i)), box).contains_zero()) claim.side[i] = 0;
   double size = 0;
-  for (std::size_t i = 0; i < form_->normal.size(); ++i) {
-    claim.side.push_back(value(normal(static_cast<int>(i)), middle_box).mid());
-    size = std::hypot(size, claim.side.back());
-  }
+  for (const double x : claim.side) size = std::hypot(size, x);
   if (!(size > 0) || !std::isfinite(size) || plus + minus == 0) return claim;
   claim.passage = plus > 0 && minus > 0 ? Passage::traversable : Passage::barrier;
   claim.sign = plus > 0 ? 1 : -1;

@@ -63,15 +63,20 @@ void merge_parts(Result& whole) {
   cover.tolerance = whole.parts.front().cover.tolerance;
   whole.stopped.clear();
   whole.options = whole.parts.front().options;
+  // A part that was never searched was perhaps not reduced, either: its dimension says nothing, unless there is no other.
+  const auto is_searched = [](const Result& part) { return part.cover.statistics.processed > 0 || part.cover.complete(); };
+  const bool some_searched = std::ranges::any_of(whole.parts, is_searched);
   for (std::size_t i = 0; i < whole.parts.size(); ++i) {
     const Result& part = whole.parts[i];
     CORANK_CHECK(part.variables.size() >= n);
     for (const CoverBox& box : part.cover.boxes) cover.boxes.push_back(of_whole(box, n, static_cast<int>(i)));
     for (const CoverBox& box : part.cover.points) cover.points.push_back(of_whole(box, n, static_cast<int>(i)));
-    cover.dimension = std::max(cover.dimension, part.cover.dimension);
+    if (is_searched(part) || !some_searched) {
+      cover.dimension = std::max(cover.dimension, part.cover.dimension);
+      cover.sigma.length = std::max(cover.sigma.length, part.cover.sigma.length);
+      cover.sigma.angle = std::max(cover.sigma.angle, part.cover.sigma.angle);
+    }
     cover.observed_dimension = std::max(cover.observed_dimension, part.cover.observed_dimension);
-    cover.sigma.length = std::max(cover.sigma.length, part.cover.sigma.length);
-    cover.sigma.angle = std::max(cover.sigma.angle, part.cover.sigma.angle);
     cover.wider_than_sigma += part.cover.wider_than_sigma;
     const Statistics& s = part.cover.statistics;
     cover.statistics.processed += s.processed;

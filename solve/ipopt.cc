@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <span>
 
 #include "corank/core/nearest_rounding.h"
 #include "corank/core/rounding.h"
@@ -17,11 +18,21 @@ namespace {
 using Ipopt::Index;
 using Ipopt::Number;
 
-// What both problems have in common.
+// What both problems have in common: Ipopt sees each variable, and each row, divided by its typical size, so that its
+// tolerances are in no unit.
 class Task : public Ipopt::TNLP {
  public:
   Task(const certify::CompiledSystem& system, const Box& box, const Ended& ended)
-      : system_(system), box_(box), ended_(ended) {}
+      : system_(system), box_(box), ended_(ended), derivatives_(system.entries()) {
+    const UpwardRounding rounding;
+    for (Index i = 0; i < system.rows(); ++i) {
+      system.jacobian(i, box, derivatives_);
+      double largest = 0;
+      for (Index k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
+        largest = std::max(largest, derivatives_[k].mag() * size(system.column(k)));
+      row_sizes_.push_back(largest > 0 && std::isfinite(largest) ? largest : 1);
+    }
+  }
 
   const std::optional<std::vector<double>>& solution() const { return solution_; }
 
@@ -36,10 +47,37 @@ class Task : public Ipopt::TNLP {
     return std::all_of(x, x + n, [](Number a) { return std::isfinite(a); });
   }
 
+  double size(Index j) const { return system_.scales()[j]; }
+  std::vector<double> point(const Number* x) const {
+    std::vector<double> at;
+    for (Index j = 0; j < system_.variables(); ++j) at.push_back(x[j] * size(j));
+    return at;
+  }
+  // Of as many rows as these two have room for.
+  void evaluate(const Number* x, std::span<Number> values) const {
+    const std::vector<double> at = point(x);
+    const UpwardRounding rounding;
+    for (Index i = 0; i < std::ssize(values); ++i) values[i] = system_.evaluate_at(i, at.data()).mid() / row_sizes_[i];
+  }
+  void differentiate(const Number* x, Index rows, Number* values) {
+    const std::vector<double> at = point(x);
+    const UpwardRounding rounding;
+    const std::vector<Interval> sides(at.begin(), at.end());
+    for (Index i = 0; i < rows; ++i) {
+      system_.jacobian(i, sides, derivatives_);
+      for (Index k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k)
+        values[k] = derivatives_[k].mid() * size(system_.column(k)) / row_sizes_[i];
+    }
+  }
+
   const certify::CompiledSystem& system_;
   const Box& box_;
   const Ended& ended_;
   std::optional<std::vector<double>> solution_;
+
+ private:
+  std::vector<Interval> derivatives_;
+  std::vector<double> row_sizes_;
 };
 
 // ½‖F‖² with the Gauss–Newton Hessian JᵀJ, no constraints but the bounds.
@@ -56,14 +94,14 @@ class LeastSquaresTask : public Task {
   }
   bool get_bounds_info(Index n, Number* lower, Number* upper, Index, Number*, Number*) override {
     for (Index j = 0; j < n; ++j) {
-      const double margin = 0.5 * (box_[j].hi() - box_[j].lo()) + 1e-12;
-      lower[j] = box_[j].lo() - margin;
-      upper[j] = box_[j].hi() + margin;
+      const double margin = 0.5 * (box_[j].hi() - box_[j].lo()) + 1e-12 * size(j);
+      lower[j] = (box_[j].lo() - margin) / size(j);
+      upper[j] = (box_[j].hi() + margin) / size(j);
     }
     return true;
   }
   bool get_starting_point(Index n, bool, Number* x, bool, Number*, Number*, Index, bool, Number*) override {
-    for (Index j = 0; j < n; ++j) x[j] = box_[j].mid();
+    for (Index j = 0; j < n; ++j) x[j] = box_[j].mid() / size(j);
     return true;
   }
   bool eval_f(Index, const Number* x, bool, Number& value) override {
@@ -98,43 +136,32 @@ class LeastSquaresTask : public Task {
         }
     return all_finite(values, n * (n + 1) / 2);
   }
-  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*, const Number*, Index, const Number*,
+  void finalize_solution(Ipopt::SolverReturn, Index, const Number* x, const Number*, const Number*, Index, const Number*,
                          const Number*, Number, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
-    solution_.emplace(x, x + n);
+    solution_ = point(x);
   }
 
  private:
   std::vector<double> residual(const Number* x) const {
-    const UpwardRounding rounding;
-    std::vector<double> f;
-    for (int row = 0; row < system_.equations(); ++row) f.push_back(system_.evaluate_at(row, x).mid());
+    std::vector<double> f(system_.equations());
+    evaluate(x, f);
     return f;
   }
-  std::vector<double> jacobian(const Number* x) const {
+  std::vector<double> jacobian(const Number* x) {
     std::vector<double> j(system_.entries());
-    system_.approximate_jacobian(x, j.data());
+    differentiate(x, system_.equations(), j.data());
     return j;
   }
 };
 
 constexpr double kInfinity = 2e19;  // what Ipopt takes for it
 
-// min x_variable, F(x) = 0, G(x) ≥ 0, x in the box; Ipopt sees each variable, and each row, divided by its typical size, so
-// that its tolerances are in no unit.
+// min x_variable, F(x) = 0, G(x) ≥ 0, x in the box.
 class LeastValueTask : public Task {
  public:
   LeastValueTask(const certify::CompiledSystem& system, int variable, const Box& box, const std::vector<double>& start,
                  const Ended& ended)
-      : Task(system, box, ended), variable_(variable), start_(start), derivatives_(system.entries()) {
-    const UpwardRounding rounding;
-    for (Index i = 0; i < system.rows(); ++i) {
-      system.jacobian(i, box, derivatives_);
-      double largest = 0;
-      for (Index k = system.row_begin(i); k < system.row_begin(i + 1); ++k)
-        largest = std::max(largest, derivatives_[k].mag() * size(system.column(k)));
-      row_sizes_.push_back(largest > 0 && std::isfinite(largest) ? largest : 1);
-    }
-  }
+      : Task(system, box, ended), variable_(variable), start_(start) {}
 
   bool get_nlp_info(Index& n, Index& m, Index& jacobian_entries, Index& hessian_entries, IndexStyleEnum& style) override {
     n = system_.variables();
@@ -163,48 +190,29 @@ class LeastValueTask : public Task {
     gradient[variable_] = 1;
     return true;
   }
-  bool eval_g(Index n, const Number* x, bool, Index m, Number* g) override {
-    const std::vector<double> at = point(n, x);
-    const UpwardRounding rounding;
-    for (Index i = 0; i < m; ++i) g[i] = system_.evaluate_at(i, at.data()).mid() / row_size(i);
+  bool eval_g(Index, const Number* x, bool, Index m, Number* g) override {
+    evaluate(x, {g, static_cast<std::size_t>(m)});
     return all_finite(g, m);
   }
-  bool eval_jac_g(Index n, const Number* x, bool, Index m, Index entries, Index* rows, Index* columns,
+  bool eval_jac_g(Index, const Number* x, bool, Index m, Index entries, Index* rows, Index* columns,
                   Number* values) override {
     if (!values) {
       for (Index i = 0; i < m; ++i)
         for (Index k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k) rows[k] = i, columns[k] = system_.column(k);
       return true;
     }
-    const std::vector<double> at = point(n, x);
-    const UpwardRounding rounding;
-    const std::vector<Interval> sides(at.begin(), at.end());
-    for (Index i = 0; i < m; ++i) {
-      system_.jacobian(i, sides, derivatives_);
-      for (Index k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k)
-        values[k] = derivatives_[k].mid() * size(system_.column(k)) / row_size(i);
-    }
+    differentiate(x, m, values);
     return all_finite(values, entries);
   }
-  void finalize_solution(Ipopt::SolverReturn status, Index n, const Number* x, const Number*, const Number*, Index,
+  void finalize_solution(Ipopt::SolverReturn status, Index, const Number* x, const Number*, const Number*, Index,
                          const Number*, const Number*, Number, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
-    if (status != Ipopt::LOCAL_INFEASIBILITY && status != Ipopt::INVALID_NUMBER_DETECTED) solution_ = point(n, x);
+    if (status != Ipopt::LOCAL_INFEASIBILITY && status != Ipopt::INVALID_NUMBER_DETECTED) solution_ = point(x);
   }
 
  private:
-  double size(Index j) const { return system_.scales()[j]; }
-  double row_size(Index i) const { return row_sizes_[i]; }
-  std::vector<double> point(Index n, const Number* x) const {
-    std::vector<double> at;
-    for (Index j = 0; j < n; ++j) at.push_back(x[j] * size(j));
-    return at;
-  }
-
   const int variable_;
   const std::vector<double>& start_;
-  std::vector<Interval> derivatives_;
-  std::vector<double> row_sizes_;
 };
 
 // MUMPS, Ipopt's linear solver, keeps its state in global variables: one thread of a process may use Ipopt at a time.

@@ -105,17 +105,14 @@ class Lagrangian {
   GiNaC::ex value_ = 0;
 };
 
-// Rows times the scales of λ, columns of lengths times a typical length: N stays regular, and S is the form of ker Φ_z in
-// another basis.
+// Rows times the scales of λ, columns times the sizes of their coordinates: N stays regular, and S is the form of ker Φ_z
+// in another basis.
 void take_out_units(const Mechanism& mechanism, const std::vector<std::string>& columns,
                     const std::vector<std::string>& scales, PassageForm& form) {
-  const ExactNumber length = ExactNumber::rational(typical_length(mechanism));
+  const std::vector<std::string> sizes = coordinate_sizes(mechanism);
   const UpwardRounding rounding;
   std::vector<ExactNumber> by;
-  for (const std::string& name : columns) {
-    const Coordinate& c = mechanism.coordinates()[mechanism.find_coordinate(name)];
-    by.push_back(c.kind == CoordinateKind::angle || c.direction ? ExactNumber(1) : length);
-  }
+  for (const std::string& name : columns) by.push_back(ExactNumber::rational(sizes[mechanism.find_coordinate(name)]));
   const auto multiply = [](Polynomial& f, const ExactNumber& factor) { f = certify::sum({}, factor, f); };
   std::size_t entry = 0;
   for (int i = 0; i < form.equations; ++i) {

@@ -19,7 +19,7 @@ namespace corank::symbolic {
 namespace {
 
 constexpr int kSweeps = 12;
-constexpr int kLargestPower = 40;
+constexpr int kLargestPower = 200;  // of a length to the fourth power, in nanometres, say
 constexpr double kLeverUnits = 8;   // of the largest lever arm, likewise: of 0.5, 1 … 16 the best for Dextar and the 3-RRR
 constexpr double kLengthUnits = 4;  // of the largest size beside angles; measured, see bench/HISTORY.md
 
@@ -299,10 +299,11 @@ std::vector<double> equation_sizes(const Mechanism& mechanism) {
   return equation_sizes(mechanism, *configurations(mechanism));
 }
 
-std::string typical_length(const Mechanism& mechanism) {
-  const std::vector<double> sizes = length_sizes(mechanism, configurations(mechanism)->box);
-  const double largest = *std::max_element(sizes.begin(), sizes.end());
-  return largest > 0 ? number(largest, 0) : "1";
+std::vector<std::string> coordinate_sizes(const Mechanism& mechanism) {
+  std::vector<std::string> result;
+  for (const double size : length_sizes(mechanism, configurations(mechanism)->box))
+    result.push_back(size > 0 ? number(size, 0) : "1");
+  return result;
 }
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel) {

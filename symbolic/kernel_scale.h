@@ -35,8 +35,8 @@ std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQ
 /// that is 0 or unbounded.
 std::vector<double> equation_sizes(const Mechanism& mechanism);
 
-/// The largest typical size of a length, half its range as the constraints leave it, in two digits, as the text of a
-/// rational number; "1" where there is none.
-std::string typical_length(const Mechanism& mechanism);
+/// Of each coordinate half its range, as the constraints leave it, in two digits, as the text of a rational number; "1" of
+/// angles and directions.
+std::vector<std::string> coordinate_sizes(const Mechanism& mechanism);
 
 }  // namespace corank::symbolic

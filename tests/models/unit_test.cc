@@ -1,10 +1,13 @@
 // The answer does not depend on the unit of length, on generous ranges, or on sigma.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 
+#include "corank/solve/ipopt.h"
 #include "corank/solve/solve.h"
+#include "corank/study/answer.h"
 #include "corank/study/question.h"
 #include "corank/symbolic/algebrizer.h"
 #include "corank/symbolic/kernel_scale.h"
@@ -105,6 +108,25 @@ TEST(Unit, OfLengthChangesNothingWhereTheVelocityEquationIsGiven) {
     }
 }
 
+// A rod of length r between (a, 0) and a point of a body that slides along x and turns by φ: outputs of unlike units.
+TEST(Unit, OfLengthChangesNoBarrier) {
+  std::size_t boxes = 0;
+  for (const char* unit : {"1", "1/1000", "1000000"}) {
+    const auto model = symbolic::parse_model(
+        std::string("[CONSTANTS]\nu := ") + unit +
+            "\na := 1/2*u\nb := 2/5*u\n[SYSTEM VARS]\nx : [-u, u]\nphi ~ [-pi, pi]\nr : [0, 3*u]\n[SYSTEM EQS]\n"
+            "(x + b*cos(phi) - a)^2 + b^2*sin(phi)^2 = r^2;\n[OUTPUTS] x, phi\n[LIMITS]\nr : [7/10*u, u]\n",
+        "rod.cuik");
+    const result::Result result = study::answer({.model = model, .set = SingularitySet::boundary});
+    const auto barriers = std::ranges::count(result.cover.boxes, Passage::barrier, &CoverBox::passage);
+    EXPECT_TRUE(result.cover.complete()) << unit;
+    EXPECT_EQ(barriers, std::ssize(result.cover.boxes)) << unit;
+    if (boxes == 0) boxes = result.cover.boxes.size();
+    EXPECT_GT(boxes, 100u);
+    EXPECT_NEAR(static_cast<double>(result.cover.boxes.size()), static_cast<double>(boxes), 8) << unit;
+  }
+}
+
 // A sphere's directions and one of its heights, in `unit` per metre: components of unit vectors count as sines do.
 TEST(Unit, OfDirectionsIsNone) {
   std::size_t boxes = 0;
@@ -149,6 +171,41 @@ TEST(KernelScales, AreThoseOfTheRangesThatTheConstraintsLeave) {
   };
   EXPECT_EQ(scales("[-100, 100]"), scales("[-100000, 100000]"));
   EXPECT_EQ(scales("[-100, 100]"), (std::vector<std::string>{"400", "1"}));
+}
+
+// In nanometres, x² + y² has derivatives 2⁶¹ times as large as those of sines.
+TEST(KernelScales, ReachTheSquaresOfSmallUnits) {
+  const auto model = symbolic::parse_model(
+      "[CONSTANTS]\nu := 1000000000\n[SYSTEM VARS]\nx : [-u, u]\ny : [-u, u]\nr : [0, u]\nt ~ [-pi, pi]\n"
+      "s ~ [-pi, pi]\n[SYSTEM EQS]\nx^2 + y^2 = r^2;\ncos(s) = sin(t);\n[INPUTS] x, r, t\n[OUTPUTS] y, s\n",
+      "lengths.cuik");
+  const auto scales = symbolic::kernel_scales(model, SingularitySet::forward, symbolic::KernelSide::left);
+  ASSERT_EQ(scales.size(), 2u);
+  EXPECT_EQ(scales[0], "1/2305843009213693952");
+  EXPECT_EQ(scales[1], "1");
+  // What mixes lengths and numbers without a unit takes each coordinate's own size.
+  EXPECT_EQ(symbolic::coordinate_sizes(model),
+            (std::vector<std::string>{"1000000000", "1000000000", "500000000", "1", "1"}));
+}
+
+// A double solution, which Ipopt comes near to: its tolerances are in no unit.
+TEST(Polishing, DoesNotDependOnTheUnit) {
+  std::vector<double> values;
+  for (const char* unit : {"1/1000000000", "1", "1000000000"}) {
+    const System system = study::system(
+        {.model = symbolic::parse_model(std::string("[CONSTANTS]\nu := ") + unit +
+                                            "\n[SYSTEM VARS]\nx : [0, 3*u]\ny : [0, 3*u]\nt ~ [-pi, pi]\n"
+                                            "[SYSTEM EQS]\nx^2 + y^2 = 4*u^2;\nx*y = 2*u^2;\nx = 2*u*cos(t);\n",
+                                        "lengths.cuik")});
+    const double u = system.variables[0].domain.hi() / 3;
+    Box box = system.domain();
+    box[0] = Interval(1.3 * u, 1.6 * u), box[1] = Interval(1.2 * u, 1.5 * u);
+    const auto found = solve::polish(system, box, {});
+    ASSERT_TRUE(found) << unit;
+    EXPECT_NEAR((*found)[0] / u, std::sqrt(2.0), 0.005) << unit;
+    values.push_back((*found)[0] / u);
+    EXPECT_NEAR(values.back(), values.front(), 1e-6) << unit;
+  }
 }
 
 }  // namespace

@@ -342,6 +342,28 @@ TEST_F(SetPartsFile, IsRejectedWithoutAPartOrWithAnother) {
   EXPECT_NE(rejection_of([](result::Result& r) { r.parts[2].cover.boxes.pop_back(); }), "");
 }
 
+// What ended before it was reduced has more unknowns than the set has dimensions, and a coarser sigma.
+TEST(SetParts, ThatWereNotSearchedSayNothingOfTheDimension) {
+  result::Result result = legs();
+  const int dimension = result.cover.dimension;
+  const Sigma sigma = result.cover.sigma;
+  const auto end_early = [](result::Result& part) {
+    part.cover.statistics.processed = 0;
+    part.cover.dimension += 2;
+    part.cover.sigma = {1, 1};
+    part.cover.boxes.resize(1);
+    part.cover.boxes[0].verdict = Verdict::pending;
+  };
+  end_early(result.parts[0]);
+  merge_parts(result);
+  EXPECT_EQ(result.cover.dimension, dimension);
+  EXPECT_EQ(result.cover.sigma.length, sigma.length);
+  EXPECT_FALSE(result.cover.complete());
+  for (std::size_t i = 1; i < result.parts.size(); ++i) end_early(result.parts[i]);
+  merge_parts(result);
+  EXPECT_EQ(result.cover.dimension, dimension + 2) << "where there is no other";
+}
+
 // Ties against the equations that they stand for: the same boxes of an angle's two values, for each kind of tie.
 TEST(AngleTies, HoldWhatTheyStandFor) {
   std::mt19937_64 random(11);
