@@ -30,9 +30,9 @@ LegsInOnePiece legs_in_one_piece(const Robot& robot);
 /// direction, all sliding ones are perpendicular to it.
 std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& algebra);
 
-/// Writes the equations of a robot in a plane. Each group of bodies has an absolute angle, or the angle of the joint that carries it; a loop
-/// closes by two equations. Velocities are the derivatives of these: L = Φ_q. Throws ModelError where the robot can't be
-/// assembled, or an output means nothing in a plane.
+/// Writes the equations of a robot in a plane. Each group of bodies has an absolute angle, or the angle of the joint that
+/// carries it; a loop closes by two equations. Velocities are the derivatives of these: L = Φ_q. Throws ModelError where the
+/// robot can't be assembled, or an output means nothing in a plane.
 void draft_planar(const Robot& robot, const Bodies& bodies, const std::vector<Vec>& normals, Algebra& algebra, Draft& draft);
 
 /// Writes the equations of a robot in space.
