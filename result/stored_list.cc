@@ -8,9 +8,9 @@ std::string StoredList::text_of(const RationalPolynomial& f) {
   return text;
 }
 
-void StoredList::read_text(const std::string&, const std::string& text, std::string& to) const { to = printable_line(text); }
+void StoredList::read_text(std::string_view, const std::string& text, std::string& to) const { to = printable_line(text); }
 
-void StoredList::read_text(const std::string& name, const std::string& text, ExactNumber& to) const {
+void StoredList::read_text(std::string_view name, const std::string& text, ExactNumber& to) const {
   try {
     to = ExactNumber::rational(text);
   } catch (const std::exception& error) {
@@ -18,7 +18,7 @@ void StoredList::read_text(const std::string& name, const std::string& text, Exa
   }
 }
 
-void StoredList::read_text(const std::string& name, const std::string& text, RationalPolynomial& to) const {
+void StoredList::read_text(std::string_view name, const std::string& text, RationalPolynomial& to) const {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(", ", begin), text.size());
     read_text(name, text.substr(begin, end - begin), to.emplace_back());
@@ -26,13 +26,13 @@ void StoredList::read_text(const std::string& name, const std::string& text, Rat
   }
 }
 
-Interval StoredList::read_interval(const std::string& name, double lower, double upper) const {
+Interval StoredList::read_interval(std::string_view name, double lower, double upper) const {
   if (!(lower <= upper)) refuse(name, "holds an empty interval");
   return {lower, upper};
 }
 
-void StoredList::refuse(const std::string& name, const std::string& what) const {
-  throw ResultFileError(printable_line(file_->path() + ": " + prefix_ + name + " " + what));
+void StoredList::refuse(std::string_view name, const std::string& what) const {
+  throw ResultFileError(printable_line(file_->path() + ": " + prefix_ + std::string(name) + " " + what));
 }
 
 void StoredList::write(Hdf5Writer& file) const {

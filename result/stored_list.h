@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 
@@ -48,7 +49,7 @@ class StoredList {
   }
   /// So many of them, or of doubles, for each value.
   template <class List>
-  void row(const std::string& name, List&& list, std::size_t width, int least = -kMost, int most = kMost) {
+  void row(std::string_view name, List&& list, std::size_t width, int least = -kMost, int most = kMost) {
     using X = std::remove_cvref_t<decltype(*std::begin(list))>;
     if constexpr (std::is_same_v<X, double>) {
       cells<double>(name, width, storage_, list);
@@ -77,13 +78,16 @@ class StoredList {
     if constexpr (!std::is_const_v<X>) x = read_interval(name, ends.front(), ends.back());
   }
   template <class B>
-  void box(const std::string& name, B& box, std::size_t width) {
+  void box(std::string_view name, B& box, std::size_t width) {
     std::remove_const_t<Ends<B>> lower, upper;
     for (const Interval& side : box) lower.push_back(side.lo()), upper.push_back(side.hi());
-    cells<double>(name + "lower", width, storage_, static_cast<Ends<B>&>(lower));
-    cells<double>(name + "upper", width, storage_, static_cast<Ends<B>&>(upper));
+    const bool named = naming_ || !std::is_const_v<B>;  // else the columns are there, and a name takes time
+    const std::string of_lower = named ? std::string(name) + "lower" : "",
+                      of_upper = named ? std::string(name) + "upper" : "";
+    cells<double>(of_lower, width, storage_, static_cast<Ends<B>&>(lower));
+    cells<double>(of_upper, width, storage_, static_cast<Ends<B>&>(upper));
     if constexpr (!std::is_const_v<B>)
-      for (std::size_t i = 0; i < lower.size(); ++i) box.push_back(read_interval(name + "lower", lower[i], upper[i]));
+      for (std::size_t i = 0; i < lower.size(); ++i) box.push_back(read_interval(of_lower, lower[i], upper[i]));
   }
 
   /// The first value is none, which only says what fields there are.
@@ -108,9 +112,9 @@ class StoredList {
   };
 
   template <class Stored, class List>
-  void cells(const std::string& name, std::size_t width, Storage storage, List&& list, int least = -kMost, int most = kMost,
+  void cells(std::string_view name, std::size_t width, Storage storage, List&& list, int least = -kMost, int most = kMost,
              const EnumWords* words = nullptr) {
-    if (naming_) return add({name, width, storage, words, std::vector<Stored>()});
+    if (naming_) return add({std::string(name), width, storage, words, std::vector<Stored>()});
     Column& column = columns_.at(next_++);
     auto& data = std::get<std::vector<Stored>>(column.data);
     if constexpr (std::is_const_v<std::remove_reference_t<decltype(*std::begin(list))>>) {
@@ -132,7 +136,7 @@ class StoredList {
     }
   }
   template <class Stored, class X>
-  void read(const std::string& name, const Stored& stored, X& x, int least, int most) const {
+  void read(std::string_view name, const Stored& stored, X& x, int least, int most) const {
     if constexpr (std::is_same_v<Stored, std::string>) {
       read_text(name, stored, x);
     } else {
@@ -142,13 +146,13 @@ class StoredList {
   }
   static const std::string& text_of(const std::string& text) { return text; }
   static std::string text_of(const ExactNumber& x) { return x.text(); }
-  static std::string text_of(const RationalPolynomial& f);  // coefficients with commas between
-  void read_text(const std::string& name, const std::string& text, std::string& to) const;  // printable
-  void read_text(const std::string& name, const std::string& text, ExactNumber& to) const;
-  void read_text(const std::string& name, const std::string& text, RationalPolynomial& to) const;
-  Interval read_interval(const std::string& name, double lower, double upper) const;
+  static std::string text_of(const RationalPolynomial& f);                                // coefficients with commas between
+  void read_text(std::string_view name, const std::string& text, std::string& to) const;  // printable
+  void read_text(std::string_view name, const std::string& text, ExactNumber& to) const;
+  void read_text(std::string_view name, const std::string& text, RationalPolynomial& to) const;
+  Interval read_interval(std::string_view name, double lower, double upper) const;
   void add(Column column);
-  [[noreturn]] void refuse(const std::string& name, const std::string& what) const;
+  [[noreturn]] void refuse(std::string_view name, const std::string& what) const;
 
   const Hdf5Reader* file_;
   const std::string prefix_;

@@ -90,7 +90,7 @@ class Control {
   double seconds_left() const;
   /// For what makes a result of all that was found, and takes little time: true once the run has ended kGrace seconds ago.
   bool overdue() const;
-  static constexpr double kGrace = 0.5;
+  static constexpr double kGrace = 0.25;
   /// The same as ended() for a search, which also ends where it has used up boxes or memory.
   bool search_ended() const;
   /// A box is about to be processed; false: there is to be none.

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
+#include <span>
 #include <vector>
 
+#include "corank/core/box_tree.h"
 #include "corank/core/cover.h"
 
 namespace corank::test {
@@ -11,32 +14,33 @@ namespace corank::test {
 /// Samples in closed form carry rounding errors of some ulps, more where two circles nearly touch (√ε).
 inline constexpr double kSampleTolerance = 1e-7;
 
-/// Finds points by the first coordinates of boxes, the boxes sorted by their lower end along the first.
 class CoverLookup {
  public:
-  explicit CoverLookup(const Cover& cover) {
-    for (const auto& b : cover.boxes) boxes_.push_back(&b.box);
-    std::sort(boxes_.begin(), boxes_.end(), [](auto* a, auto* b) { return (*a)[0].lo() < (*b)[0].lo(); });
-    for (const auto* b : boxes_) widest_ = std::max(widest_, (*b)[0].width());
-  }
+  explicit CoverLookup(const Cover& cover) : cover_(cover) {}
 
   /// The leading coordinates of some box, widened by tolerance (for samples computed in floating point), hold the point.
-  template <class Point>
-  bool holds(const Point& p, double tolerance) const {
-    const auto begin = std::lower_bound(boxes_.begin(), boxes_.end(), p[0] - widest_ - tolerance,
-                                        [](auto* b, double value) { return (*b)[0].lo() < value; });
-    for (auto at = begin; at != boxes_.end() && (**at)[0].lo() <= p[0] + tolerance; ++at) {
-      bool inside = true;
-      for (std::size_t j = 0; j < p.size() && inside; ++j)
-        inside = p[j] >= (**at)[j].lo() - tolerance && p[j] <= (**at)[j].hi() + tolerance;
-      if (inside) return true;
-    }
-    return false;
+  bool holds(std::span<const double> p, double tolerance) const {
+    bool found = false;
+    for_each(p, tolerance, [&](const CoverBox&) { found = true; });
+    return found;
+  }
+  /// Calls visit(box) for each box that holds the point so.
+  template <class Visit>
+  void for_each(std::span<const double> p, double tolerance, Visit visit) const {
+    auto tree = trees_.find(p.size());
+    if (tree == trees_.end()) tree = trees_.try_emplace(p.size(), boxes(), p.size()).first;
+    tree->second.for_each_overlapping(Box(p.begin(), p.end()), tolerance, [&](std::size_t k) { visit(cover_.boxes[k]); });
   }
 
  private:
-  std::vector<const Box*> boxes_;
-  double widest_ = 0;
+  std::vector<const Box*> boxes() const {
+    std::vector<const Box*> list;
+    for (const CoverBox& b : cover_.boxes) list.push_back(&b.box);
+    return list;
+  }
+
+  const Cover& cover_;
+  mutable std::map<std::size_t, BoxTree> trees_;  ///< by the number of leading coordinates
 };
 
 // Of the configuration's first `coordinates` variables in proven boxes, which σ is about.

@@ -14,15 +14,6 @@ namespace corank::solve {
 namespace {
 using Point = std::vector<double>;
 
-// Is the point, known to `slack` only, in a box?
-bool covers_nearly(const Cover& cover, const Point& p, double slack) {
-  return std::any_of(cover.boxes.begin(), cover.boxes.end(), [&](const CoverBox& b) {
-    for (std::size_t j = 0; j < p.size(); ++j)
-      if (p[j] < b.box[j].lo() - slack || p[j] > b.box[j].hi() + slack) return false;
-    return true;
-  });
-}
-
 bool claims_one(const CoverBox& b) { return b.verdict == Verdict::regular || b.verdict == Verdict::isolated; }
 
 // Every claim: for several values of its free variables, ends included, a box holds exactly one of the solutions that
@@ -57,15 +48,15 @@ void expect_true_claims(const Cover& cover, const Solutions& solutions) {
 }
 
 // No box that makes a claim holds the point.
-void expect_undecided_at(const Cover& cover, const Point& p) {
-  EXPECT_TRUE(covers_nearly(cover, p, 1e-15));
-  for (const CoverBox& b : cover.boxes) {
+void expect_undecided_at(const test::CoverLookup& lookup, const Point& p) {
+  EXPECT_TRUE(lookup.holds(p, 1e-15));
+  lookup.for_each(p, 0, [&](const CoverBox& b) {
     bool inside = true;
     for (std::size_t j = 0; j < p.size() && inside; ++j) inside = b.box[j].strictly_contains(Interval(p[j]));
     if (inside) {
       EXPECT_EQ(b.verdict, Verdict::undecided) << b.box[0] << b.box[1];
     }
-  }
+  });
 }
 
 TEST(Degenerate, TheAxesCrossAndNothingIsLostNearTheOrigin) {
@@ -75,6 +66,7 @@ TEST(Degenerate, TheAxesCrossAndNothingIsLostNearTheOrigin) {
     const int x = b.variable("x1", "-1", upper), y = b.variable("x2", "-1", upper);
     b.equation({{"1", {{x, 1}, {y, 1}}}});
     const Cover cover = solve_with(b.system(), 0.01);
+    const test::CoverLookup lookup(cover);
     EXPECT_TRUE(cover.complete());
     for (int k = 0; k <= 1200; ++k) {
       const double t = std::pow(10, -k / 100.0);  // to 1e-12
@@ -86,7 +78,7 @@ TEST(Degenerate, TheAxesCrossAndNothingIsLostNearTheOrigin) {
     ASSERT_TRUE(covers(cover, {0, 0}));
     for (const double t : {1e-300, std::numeric_limits<double>::denorm_min()})
       ASSERT_TRUE(covers(cover, {t, 0}) && covers(cover, {0, -t}));
-    expect_undecided_at(cover, {0, 0});
+    expect_undecided_at(lookup, {0, 0});
     EXPECT_GT(cover.count(Verdict::regular), 100u);
     expect_true_claims(cover, [](const CoverBox& box, const Point& at) {
       return box.free.at(0) == 0 ? std::vector<Point>{{at[0], 0}} : std::vector<Point>{{0, at[1]}};
@@ -106,15 +98,16 @@ TEST(Degenerate, ACrossingThatMeetsNoAxisLosesNothingDownToRounding) {
               {"-1/77", {}}});
   const double cx = (3.0 / 7 - 4.0 / 11) / 25, cy = (4.0 / 7 + 3.0 / 11) / 25;  // the crossing
   const Cover cover = solve_with(b.system(), 0.01);
+  const test::CoverLookup lookup(cover);
   EXPECT_TRUE(cover.complete());
   for (int k = 0; k <= 1200; ++k) {
     const double t = 0.7 * std::pow(10, -k / 100.0);
     for (const double u : {t, -t}) {
-      ASSERT_TRUE(covers_nearly(cover, {cx + 0.8 * u, cy - 0.6 * u}, 1e-15)) << u;
-      ASSERT_TRUE(covers_nearly(cover, {cx + 0.6 * u, cy + 0.8 * u}, 1e-15)) << u;
+      ASSERT_TRUE(lookup.holds(Point{cx + 0.8 * u, cy - 0.6 * u}, 1e-15)) << u;
+      ASSERT_TRUE(lookup.holds(Point{cx + 0.6 * u, cy + 0.8 * u}, 1e-15)) << u;
     }
   }
-  expect_undecided_at(cover, {cx, cy});
+  expect_undecided_at(lookup, {cx, cy});
   EXPECT_GT(cover.count(Verdict::regular), 100u);
   expect_true_claims(cover, [](const CoverBox& box, const Point& at) {
     const double u = at[0], v = at[1];
@@ -130,9 +123,10 @@ TEST(Degenerate, ATripleRootIsNeverClaimed) {
   b.equation({{"1", {{x, 4}}}, {"-1/2", {{x, 3}}}, {"-1/6", {{x, 2}}}, {"7/54", {{x, 1}}}, {"-1/54", {}}});
   for (const double sigma : {1e-3, 1e-6}) {  // 1e-6 is less than double arithmetic resolves there: a cloud of boxes
     const Cover cover = solve_with(b.system(), sigma);
+    const test::CoverLookup lookup(cover);
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.count(Verdict::isolated), 1u);
-    EXPECT_TRUE(covers_nearly(cover, {1.0 / 3}, 1e-16));
+    EXPECT_TRUE(lookup.holds(Point{1.0 / 3}, 1e-16));
     EXPECT_TRUE(sigma < 1e-3 || cover.points.size() == 2);
     for (const CoverBox& box : cover.boxes) {
       EXPECT_TRUE(box.verdict == Verdict::undecided || box.box[0].contains(-0.5)) << box.box[0];
@@ -159,8 +153,9 @@ TEST(Degenerate, AClusterOfRootsIsNeverTakenForOne) {
   system.equations.push_back(p);
   for (const double sigma : {0.01, 1e-5, 1e-6}) {
     const Cover cover = solve_with(system, sigma);
+    const test::CoverLookup lookup(cover);
     EXPECT_TRUE(cover.complete());
-    for (int k = -2; k <= 2; ++k) EXPECT_TRUE(covers_nearly(cover, {1.0 / 3 + k * 1e-4}, 1e-15)) << sigma;
+    for (int k = -2; k <= 2; ++k) EXPECT_TRUE(lookup.holds(Point{1.0 / 3 + k * 1e-4}, 1e-15)) << sigma;
     for (const CoverBox& point : cover.points) {
       int roots = 0;
       for (int k = -2; k <= 2; ++k) roots += point.box[0].contains(1.0 / 3 + k * 1e-4);
@@ -176,12 +171,13 @@ TEST(Degenerate, ACuspStaysUndecidedAndItsBranchesAreProven) {
   const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-2", "2");
   b.equation({{"1", {{y, 2}}}, {"-1", {{x, 3}}}});
   const Cover cover = solve_with(b.system(), 0.01);
+  const test::CoverLookup lookup(cover);
   EXPECT_TRUE(cover.complete());
   for (int k = 0; k <= 1200; ++k) {
     const double t = std::pow(10, -k / 200.0);
-    for (const double u : {t, -t}) ASSERT_TRUE(covers_nearly(cover, {u * u, u * u * u}, 1e-16)) << u;
+    for (const double u : {t, -t}) ASSERT_TRUE(lookup.holds(Point{u * u, u * u * u}, 1e-16)) << u;
   }
-  expect_undecided_at(cover, {0, 0});
+  expect_undecided_at(lookup, {0, 0});
   EXPECT_GT(cover.count(Verdict::regular), 100u);
   expect_true_claims(cover, [](const CoverBox& box, const Point& at) {
     if (box.free.at(0) == 1) return std::vector<Point>{{std::cbrt(at[1] * at[1]), at[1]}};
@@ -198,10 +194,11 @@ TEST(Degenerate, CirclesThatTouchOffTheAxesStayUndecidedThere) {
   b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-12/5", {{x, 1}}}, {"-16/5", {{y, 1}}}, {"3", {}}});
   for (const double sigma : {1e-2, 1e-6}) {
     const Cover cover = solve_with(b.system(), sigma);
+    const test::CoverLookup lookup(cover);
     EXPECT_TRUE(cover.complete());
     EXPECT_EQ(cover.count(Verdict::isolated), 0u);
     ASSERT_EQ(cover.points.size(), 1u);
-    EXPECT_TRUE(covers_nearly(cover, {0.6, 0.8}, 1e-15));
+    EXPECT_TRUE(lookup.holds(Point{0.6, 0.8}, 1e-15));
   }
 }
 
@@ -218,7 +215,7 @@ TEST(Degenerate, WhitneysUmbrellaIsProvenAwayFromItsHandle) {
       const double u = i / 20.0, v = k / 20.0;
       ASSERT_TRUE(lookup.holds(Point{u * v, u, v * v}, 1e-15)) << u << ' ' << v;
     }
-  for (int k = -40; k <= 40; ++k) expect_undecided_at(cover, {0, 0, k / 40.0});
+  for (int k = -40; k <= 40; ++k) expect_undecided_at(lookup, {0, 0, k / 40.0});
   EXPECT_GT(cover.count(Verdict::regular), 100u);
   expect_true_claims(cover, [](const CoverBox& box, const Point& at) {
     const double u = at[0], v = at[1], w = at[2];
@@ -251,7 +248,7 @@ TEST(Degenerate, SpheresThatTouchAreUndecidedAtTheirPointAndAtNoOther) {
   };
   const Cover curve = solve(b.system(), options);  // expected to be a curve, is a point
   EXPECT_TRUE(curve.complete());
-  EXPECT_TRUE(covers_nearly(curve, {2.0 / 3, 2.0 / 3, 1.0 / 3}, 1e-15));
+  EXPECT_TRUE(test::CoverLookup(curve).holds(Point{2.0 / 3, 2.0 / 3, 1.0 / 3}, 1e-15));
   for (const CoverBox& box : curve.boxes) {
     EXPECT_EQ(box.verdict, Verdict::undecided);
     EXPECT_TRUE(near_touch(box, 0.2)) << box.box[0] << box.box[1] << box.box[2];
@@ -261,7 +258,7 @@ TEST(Degenerate, SpheresThatTouchAreUndecidedAtTheirPointAndAtNoOther) {
   EXPECT_TRUE(point.complete());
   EXPECT_EQ(point.count(Verdict::isolated), 0u);
   ASSERT_EQ(point.points.size(), 1u);
-  EXPECT_TRUE(covers_nearly(point, {2.0 / 3, 2.0 / 3, 1.0 / 3}, 1e-15));
+  EXPECT_TRUE(test::CoverLookup(point).holds(Point{2.0 / 3, 2.0 / 3, 1.0 / 3}, 1e-15));
 }
 
 TEST(Degenerate, TwoSpheresAndTheirRadicalPlaneAreOneCircle) {
@@ -273,11 +270,12 @@ TEST(Degenerate, TwoSpheresAndTheirRadicalPlaneAreOneCircle) {
   b.equation({{"1", {{x, 2}}}, {"-2", {{x, 1}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}});
   b.equation({{"2", {{x, 1}}}, {"-1", {}}});
   const Cover cover = solve_with(b.system(), 0.02);
+  const test::CoverLookup lookup(cover);
   EXPECT_TRUE(cover.complete());
   EXPECT_EQ(cover.count(Verdict::isolated), 0u) << "no point of a circle is isolated";
   for (int k = 0; k < 720; ++k) {
     const double t = k * std::numbers::pi / 360, r = std::sqrt(0.75);
-    ASSERT_TRUE(covers_nearly(cover, {0.5, r * std::cos(t), r * std::sin(t)}, 1e-15)) << k;
+    ASSERT_TRUE(lookup.holds(Point{0.5, r * std::cos(t), r * std::sin(t)}, 1e-15)) << k;
   }
   for (const CoverBox& box : cover.boxes) EXPECT_NEAR(std::hypot(box.box[1].mid(), box.box[2].mid()), std::sqrt(0.75), 0.04);
 }
