@@ -42,7 +42,7 @@ struct AreaOptions {
   std::function<bool()> stop{};    ///< ends the work, with what is proven so far
 };
 
-/// Is every point of the cell an output (1), none (−1)? 0: that is not known after so many tries.
+/// Is every point of the cell an output (1), none (−1)? 0: that is not known after `tries` tries.
 int membership(const System& configurations, int x, int y, const Interval& cell_x, const Interval& cell_y, int tries);
 
 /// Bounds of the area for any mechanism. The plane is divided into cells, the largest undecided one first. A cell is

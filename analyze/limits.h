@@ -26,7 +26,7 @@ struct Limit : certify::End {
 std::vector<Limit> limits(const System& system, const Cover& cover);
 
 /// The system with an equation more for each length whose domain is one value, as of a leg that is held: its solutions in
-/// the domain are the same, and so many equations fewer than variables as its set has dimensions.
+/// the domain are the same, and there are fewer equations than variables, by the dimension of its set.
 System with_single_values(System system);
 
 /// As many equations as variables, but for a set's dimensions.

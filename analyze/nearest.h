@@ -51,7 +51,7 @@ double root_above(double square);
 Nearest nearest(const solve::Prepared& prepared, const std::vector<Polynomial>& differences, const NearestOptions& options,
                 solve::Control& control);
 
-/// A search of seconds that asks whether there is a solution, and ends with so many of them. The run does not end with it.
+/// A search of seconds that asks whether there is a solution, and ends with `solutions` of them. The run goes on after it.
 /// `boxes`: processed at most; 0: no limit.
 Cover search_briefly(System system, std::uint64_t solutions, std::uint64_t boxes, int threads,
                      const solve::Control& control);

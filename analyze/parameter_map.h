@@ -32,7 +32,7 @@ struct MapQuestion {
 };
 
 struct ParameterMapOptions {
-  int resolution = 64;       ///< the narrowest cells are so many along each side: a power of two, 8 … 1024
+  int resolution = 64;       ///< how many of the narrowest cells are along each side: a power of two, 8 … 1024
   bool boundary = true;      ///< look for the curve on which solutions meet, in cells that are left undecided
   bool certificate = false;  ///< of MapAnswer::solutions: keep what proves the cells' numbers
   int threads = 1;           ///< tiles at once; 0: one for each core

@@ -51,7 +51,7 @@ class SignCells {
   const std::vector<SignCell>& cells() const { return cells_; }
   /// The one given, and sheets that were put over parts of it.
   const Cover& cover() const { return cover_; }
-  std::size_t given() const { return given_; }  ///< so many boxes of the cover are those of the one given
+  std::size_t given() const { return given_; }  ///< how many boxes of the cover are those of the one given
   const System& system() const { return system_; }
   int functions() const { return proof_.functions(); }  ///< with the limits
   int limits() const { return limits_; }

@@ -27,7 +27,7 @@ struct Solved {
   Cover cover;
 };
 
-// `most`: ends the search after so many boxes; 0: never.
+// The search ends after `most` boxes; 0: never.
 Cover solved(const System& system, std::optional<double> sigma, const TopologyOptions& how, solve::Control& control,
              std::uint64_t most = 0) {
   const solve::Options options{.sigma = sigma, .threads = how.threads, .proof = how.certificate, .proof_of_parts = false};

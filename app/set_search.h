@@ -24,7 +24,7 @@ struct SetSearch {
   void validate() const;
   /// For the system of a set. Throws solve::OptionError.
   solve::Options options(const System& system, symbolic::SingularitySet set) const;
-  /// What is to end the search of one more set whose boxes come on a page, where others take so many bytes.
+  /// What is to end the search of one more set whose boxes come on a page, where others take `taken` bytes.
   solve::Control::Limits limits_beside(const solve::Options& options, std::uint64_t taken) const;
 
   /// What a user types for sets of this size: "corank report dextar.cuik --sigma 0.1 -D 'l2=1'".

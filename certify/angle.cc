@@ -24,7 +24,7 @@ double angle(double c, double s, long k, mpfr_rnd_t rounding) {
   return mpfr_get_d(y.data(), rounding);
 }
 
-// A corner of the box with so many extra turns.
+// A corner of the box with a number of extra turns.
 struct Corner {
   double c, s;
   long turns = 0;

@@ -31,7 +31,7 @@ struct ProvenZero {
 std::optional<ProvenZero> prove_zero(const System& system, const std::vector<ExactNumber>& start, int digits,
                                      int max_bits = 8192, const Ended& ended = {});
 
-/// Rational bounds of {f(x) : x within the sides}, computed with so many bits.
+/// Rational bounds of {f(x) : x within the sides}, computed with `bits` bits.
 std::pair<ExactNumber, ExactNumber> bounds(const Polynomial& f,
                                            const std::vector<std::pair<ExactNumber, ExactNumber>>& sides, int bits);
 

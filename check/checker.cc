@@ -213,7 +213,7 @@ class Checker {
     return {};
   }
 
-  // All boxes, or the sample: any so many of them with the same probability.
+  // All boxes, or the sample: any two samples have the same probability.
   std::vector<std::size_t> chosen() const {
     std::vector<std::size_t> all(cover_.boxes.size());
     std::iota(all.begin(), all.end(), std::size_t{0});

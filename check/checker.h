@@ -84,7 +84,7 @@ struct Options {
   int threads = 1;                                ///< 0: one for each core
   std::function<void(const Progress&)> progress;  ///< called now and then, from one thread at a time
   Ended ended;                                    ///< asked from all threads
-  /// 0: all boxes; else so many, chosen at random, and completeness is not looked at. What takes little is checked of all:
+  /// 0: all boxes; else this many, chosen at random, and completeness is not looked at. What takes little is checked of all:
   /// that boxes are in order and in bounds, exact points, points.
   std::size_t sample = 0;
   std::uint64_t seed = 0;  ///< of that choice; who wrote the file must not know it

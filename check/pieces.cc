@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostFunctions = 12;
 constexpr std::size_t kMostCells = 400'000;
 
-// With an equation more for each variable of one value: so many fewer than variables as the set has dimensions.
+// With an equation more for each variable of one value: fewer than variables, by the set's dimension.
 System with_single_values(System system) {
   for (std::size_t j = 0; j < system.variables.size(); ++j) {
     const Variable& v = system.variables[j];
@@ -66,7 +66,7 @@ class PieceCheck {
       report_.cells = cells.size();
       report_.at_least = count(cells);
       if (report_.at_least >= claims_.at_least) break;
-      // Cells take long: first, may there be so many at all?
+      // Cells take long: first, may there be this number at all?
       if (!std::exchange(bounded, true)) bound();
       if (report_.at_most && *report_.at_most < claims_.at_least) break;
     }

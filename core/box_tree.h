@@ -14,7 +14,7 @@ namespace corank {
 
 class BoxTree {
  public:
-  /// The boxes are referred to; their first `sides` sides count (all have at least so many).
+  /// The boxes are referred to; their first `sides` sides count (all have at least these).
   BoxTree(std::vector<const Box*> boxes, std::size_t sides);
 
   std::size_t size() const { return boxes_.size(); }

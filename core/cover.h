@@ -146,7 +146,7 @@ struct Cover {
   int dimension = 0;                   ///< of the set; for an over-determined system, the largest that a partial box shows
   Sigma sigma;
   double tolerance = 0;  ///< relative tolerance of the coefficients and of what `partial` says; 0: every equation is exact
-  /// So many proven boxes have an edge longer than σ: ill-conditioned pieces that double arithmetic or the coefficients'
+  /// How many proven boxes have an edge longer than σ: ill-conditioned pieces that double arithmetic or the coefficients'
   /// tolerance keep so wide, and pieces that were still to be cut when a limit ended the search.
   std::size_t wider_than_sigma = 0;
   Statistics statistics;

@@ -28,7 +28,7 @@ struct PieceCell {
 /// A solution in two or more cells.
 struct PieceLink {
   std::vector<double> point;  ///< near it
-  std::vector<int> held;      ///< variables that have the point's values exactly; so many as the set has dimensions
+  std::vector<int> held;      ///< variables that have the point's values exactly; as many as the set has dimensions
 };
 
 /// Where to look for a proof that there are no more pieces. Sheets are the boxes of the cover, then the bridges.

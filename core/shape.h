@@ -11,7 +11,7 @@ namespace corank {
 /// A solution that lies in two sheets. Sheets are the regions of a cover, then the bridges: their indices follow.
 struct SheetLink {
   int first = 0, second = 0;
-  std::vector<int> held;      ///< variables that have the point's values exactly; so many as the set has dimensions
+  std::vector<int> held;      ///< variables that have the point's values exactly; as many as the set has dimensions
   std::vector<double> point;  ///< near the solution
 };
 
@@ -25,7 +25,7 @@ struct SheetBridge {
 struct HeightCover {
   int height = 0;
   Cover cover;
-  std::vector<int> by_index;  ///< so many points of index 0, 1 … dimension
+  std::vector<int> by_index;  ///< numbers of points of index 0, 1 … dimension
 };
 
 struct Shape {

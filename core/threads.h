@@ -1,4 +1,4 @@
-// So many threads as a piece of work may have.
+// How many threads a piece of work may have.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -8,10 +8,10 @@ namespace corank {
 /// `asked`, or one for each core where that is 0.
 inline int threads_for(int asked) { return asked > 0 ? asked : tbb::this_task_arena::max_concurrency(); }
 
-/// From now on TBB may use so many threads, even where the machine has fewer cores.
+/// From now on TBB may use that many threads, even where the machine has fewer cores.
 void allow_threads(int threads);
 
-/// Work of TBB's by so many threads, the caller's among them.
+/// Work of TBB's by a number of threads, the caller's among them.
 class ThreadArena {
  public:
   /// @param asked 0: one for each core

@@ -33,7 +33,7 @@ constexpr auto kReductionFields = [](auto& field, auto& row) {
   field("factor", row.factor);
 };
 
-// A part of an implied equation: so many of the powers that follow one another are its product.
+// A part of an implied equation: its product is this number of the powers that follow one another.
 struct ImpliedRow {
   int equation = 0, powers = 0;
   ExactNumber factor;

@@ -17,7 +17,7 @@ constexpr int kMostItemsInAll = 200'000;        // a result may consist of many 
 constexpr std::size_t kLongestName = 200;
 constexpr std::uint64_t kBytesAtATime = std::uint64_t{8} << 20;  // bytes read at a time
 constexpr std::uint64_t kLongestChunk = std::uint64_t{1} << 24;
-constexpr std::uint64_t kMostDeflated = 1040;  // deflate shrinks no more than so many times
+constexpr std::uint64_t kMostDeflated = 1040;  // deflate shrinks by no larger factor
 constexpr std::uint64_t kLongestAttribute = std::uint64_t{1} << 16;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::runtime_error(what); }

@@ -25,7 +25,7 @@ class ResultFileError : public std::runtime_error {
 
 class Hdf5Writer {
  public:
-  /// Creates or truncates the file. So many threads compress what is to be packed, 0: one for each core. Once `in_haste`
+  /// Creates or truncates the file. `threads` compress what is to be packed, 0: one for each core. Once `in_haste`
   /// says so, it is written as it is: a larger file, sooner.
   explicit Hdf5Writer(const std::string& path, int threads = 1, Ended in_haste = {});
   ~Hdf5Writer();

@@ -10,7 +10,7 @@
 
 namespace corank::result {
 
-/// An array of elements of `width` bytes each, which is cut into chunks of so many elements.
+/// An array of elements of `width` bytes each, which is cut into chunks of `chunk` elements.
 struct ChunkedArray {
   std::span<const std::byte> bytes;
   std::size_t width = 1, chunk = 1;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kMostNodes = 10'000'000, kMostVariables = 100'000;
 
-// n variables, of which a path of a set of such a dimension holds so many combinations at each node.
+// Of n variables; at each node a path holds `dimension` combinations, as many as its set has dimensions.
 auto node_fields(std::size_t n, std::size_t dimension) {
   return [n, dimension](auto& field, auto& node) {
     field.row("rows", node.rows, dimension * n);

@@ -27,7 +27,7 @@ std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model
   return {list(file.lists[0], loci.all_factors), list(file.lists[1], loci.factors[0]), list(file.lists[2], loci.factors[1])};
 }
 
-// Boxes have n sides, and so many variables are held or free as C-space has dimensions.
+// Boxes have n sides; as many variables are held or free as C-space has dimensions.
 struct Sizes {
   std::size_t n, dimension;
 

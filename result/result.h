@@ -91,7 +91,7 @@ struct Result {
   RunOptions options;
   std::vector<ResultVariable> variables;  ///< n, the order of the boxes' components
   std::vector<Angle> angles;
-  int configuration_size = 0;  ///< the first so many variables describe the configuration
+  int configuration_size = 0;  ///< this many variables, the first ones, describe the configuration
   int equations = 0, inequalities = 0;
   /// Where the set consists of parts, each of these is a result of its own, with the same model, options and configuration
   /// variables; `part` says which one it is. The whole then has the boxes of all parts, in their order and in the

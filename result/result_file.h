@@ -11,7 +11,7 @@
 //   /boxes/types_proven, types_excluded (N bytes), likewise of /points: bits of the types of singularity, in the order of
 //                       the attribute types of /boxes; attributes types_asked, types_of_set, types_left_out. Absent where
 //                       none were asked for
-//   /boxes              attributes regular, isolated … wider_than_sigma: so many of the boxes
+//   /boxes              attributes regular, isolated … wider_than_sigma: numbers of boxes
 //   /certificates/…     what `corank verify` needs, see result/cover_group.h
 //   /parts/0, /parts/1 …   where the set consists of parts: each as the root, but for model and set, with the attribute
 //                       part; the root's boxes are theirs, and /boxes/part says whose

@@ -27,7 +27,7 @@ check::CriticalSystem critical_system(const symbolic::Mechanism& model, int heig
 
 std::string height_group(std::size_t k) { return "/heights/" + std::to_string(k); }
 
-// Boxes have n sides, and so many variables are held or free as the set has dimensions.
+// Boxes have n sides; as many variables are held or free as the set has dimensions.
 auto link_fields(std::size_t n, std::size_t dimension) {
   return [n, dimension](auto& field, auto& link) {
     field("first", link.first, 0, kMostCount);

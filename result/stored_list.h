@@ -47,7 +47,7 @@ class StoredList {
   void operator()(const char* name, X& x, int least = -kMost, int most = kMost) {
     row(name, std::span(&x, 1), 1, least, most);
   }
-  /// So many of them, or of doubles, for each value.
+  /// A row of `width` of them, or of doubles, for each value.
   template <class List>
   void row(std::string_view name, List&& list, std::size_t width, int least = -kMost, int most = kMost) {
     using X = std::remove_cvref_t<decltype(*std::begin(list))>;

@@ -36,7 +36,7 @@ std::string listed(const std::vector<std::string>& names);
 /// The sentence with a capital letter.
 std::string capitalized(std::string sentence);
 
-/// "[0.59999999, 0.60000001]" with at most so many significant digits, rounded outward (below 1e-12 to 0 or
+/// "[0.59999999, 0.60000001]" with at most `digits` significant digits, rounded outward (below 1e-12 to 0 or
 /// ±1e-12); one number where both ends agree.
 std::string outward_text(const Interval& x, int digits);
 

@@ -38,7 +38,7 @@ class ByteInput : public cereal::InputArchive<ByteInput, cereal::AllowEmptyClass
   void block(void* bytes, std::uint64_t count) {
     if (count > 0) std::memcpy(bytes, take(count, 1).data(), count);
   }
-  /// The next bytes as they are: so many rows.
+  /// The next bytes as they are: `rows` rows.
   std::string_view take(std::uint64_t rows, std::uint64_t row) {
     if (row > 0 && rows > rest_.size() / row) throw ShardError("a part of a search cannot be read: it is cut short");
     const std::string_view taken = rest_.substr(0, rows * row);

@@ -39,7 +39,7 @@ struct Budget {
   std::function<double()> clock = {};
 };
 inline constexpr int kMostUnitThreads = 31;
-/// So many numbers of shards are each unit's own: those of its search, then those of its cutting.
+/// How many numbers of shards are each unit's own: those of its search, then those of its cutting.
 inline constexpr ShardNumber kNumbersOfUnit = 2 * (kMostUnitThreads + 1);
 
 /// Runs units of one Coordinator. What they share is made once. For one thread.

@@ -97,12 +97,12 @@ class Control {
   bool count_box();
   void count_boxes(std::uint64_t boxes) { boxes_ += boxes; }
   bool has_counted() const { return boxes_ > 0; }
-  /// So many may be processed still, where there is a limit.
+  /// How many may still be processed, where there is a limit.
   std::uint64_t boxes_left() const { return limits_.boxes - std::min(limits_.boxes, boxes_.load()); }
-  /// What is left of the limits, and no more than so many seconds and boxes, 0: no matter how many. For a search under a
+  /// What is left of the limits, and at most these seconds and boxes, 0: any number. For a search under a
   /// control of its own, whose end is none of the run's.
   Limits rest(double seconds, std::uint64_t boxes) const;
-  /// So many bytes more, or less, are kept.
+  /// How many bytes more, or less, are kept.
   void keep(std::int64_t bytes) { kept_.fetch_add(bytes, std::memory_order_relaxed); }
   std::int64_t kept() const { return kept_; }
   /// Notes that the search has ended for this reason; the first reason is kept.
@@ -114,7 +114,7 @@ class Control {
   /// Called where a stage begins, and by stages that know how far they are; from one thread. To be set before the run.
   std::function<void(const Progress&)> progress;
   void report(std::uint64_t done, std::uint64_t all) const;
-  /// Called by searches every so many seconds or so, from one thread at a time. To be set before the run.
+  /// Called by searches every few seconds, from one thread at a time. To be set before the run.
   std::function<void(const SearchProgress&)> search_progress;
   double search_progress_interval = 0.1;
 

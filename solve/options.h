@@ -34,11 +34,11 @@ struct Options {
   std::optional<double> sigma_length{}, sigma_angle{};  ///< take sigma's place, each for its kind
   double coarser = 1;                                   ///< the default of σ, multiplied
   int threads = 1;                                      ///< 0: one for each core; at most kMostThreads
-  std::uint64_t max_boxes = 0;                          ///< stop after so many processed boxes; 0: no limit
-  std::uint64_t max_found = 0;  ///< stop when so many boxes are found, proven or undecided; 0: no limit
-  /// Stop when so many proven boxes are found; 0: all. Isolated solutions count as distinct ones, as far as the boxes found
-  /// so far tell them apart. A sheet that is being cut, and other threads, may add a few more: no proof is thrown away. What
-  /// is not processed then is `pending`, as with the other limits. With one thread the result is always the same.
+  std::uint64_t max_boxes = 0;                          ///< stop after this many processed boxes; 0: no limit
+  std::uint64_t max_found = 0;  ///< stop when this many boxes are found, proven or undecided; 0: no limit
+  /// Stop when this many proven boxes are found, 0: all. Isolated solutions count as distinct ones, as far as the boxes
+  /// found so far tell them apart. A sheet that is being cut, and other threads, may add a few more: no proof is thrown
+  /// away. What is not processed then is `pending`, as with the other limits. With one thread the result is always the same.
   std::uint64_t max_solutions = 0;
   double time_limit = 0;           ///< seconds; 0: no limit
   std::uint64_t memory_limit = 0;  ///< stop when what is found, and what is made of it, takes more bytes; 0: no limit

@@ -85,7 +85,7 @@ class Recorder {
     Cursor begin, end;
     NodeId lower{}, upper{};  // where it was split; upper alone: where its script goes on
     bool is_split = false, goes_on = false;
-    std::uint64_t number = 0;  // so many were begun before
+    std::uint64_t number = 0;  // how many were begun before
     void serialize(auto& archive) { archive(begin, end, lower, upper, is_split, goes_on, number); }
   };
   void step(Proof::Step s);

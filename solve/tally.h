@@ -60,7 +60,7 @@ class DistinctSolutions {
 
 class Tally {
  public:
-  /// `most`: ends after so many processed boxes, which is no limit of the run; 0: no limit. `journal`, where given, says
+  /// Ends after `most` processed boxes, which is no limit of the run; 0: no limit. `journal`, where given, says
   /// when the threads are to pause.
   Tally(const Prepared& prepared, Control& control, std::uint64_t most, Journal* journal = nullptr);
   ~Tally() { control_.keep(-kept_); }

@@ -12,7 +12,7 @@ class RunJournal;
 
 struct Options {
   solve::Options search;  ///< σ, limits, threads, progress
-  int digits = 0;         ///< isolated points get so many proven digits after the point; 0: none
+  int digits = 0;         ///< proven digits of isolated points after the decimal point; 0: none
 };
 
 /// All that a result file holds (result::write_result). What a limit left undone is pending or undecided, and

@@ -27,7 +27,7 @@ struct EarlyTask {
 
 class EarlySearches {
  public:
-  /// A small search processes so many boxes at most and, as its control counts, takes so much memory.
+  /// A small search processes at most this many boxes and, as its control counts, takes at most this memory.
   static constexpr std::uint64_t kBoxes = 10'000, kBytes = std::uint64_t{64} << 20;
 
   /// Makes none where `threads` is 1.

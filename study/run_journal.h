@@ -30,7 +30,7 @@ class RunJournal : public solve::Journal {
   /// `from`: what a former run has kept, or the arguments and files of a new one.
   RunJournal(result::Checkpoint from, Plan plan);
 
-  /// So many searches are to come, unless another number is said.
+  /// How many searches are to come, unless another number is said.
   void expect(std::size_t searches) { expected_ = searches; }
   /// The next of the run's searches begins: the state from which it goes on, or nothing. Throws solve::ShardError; where the
   /// plan asks to refine what cannot be refined, result::ResultFileError.

@@ -37,8 +37,8 @@ result::Result describe(const Question& question, const System& system, const Op
 /// Of an empty set: can the robot be assembled within its ranges at all? A robot without singularities and one that exists
 /// nowhere have the same empty set. Where a result is complete and has no box, fills in Result::assembly: a search of
 /// C-space that ends at the first proven configuration, or proves that there is none; and Result::nearly_solved, a hint.
-/// Does nothing else, so that other questions cost nothing. Ends with the control, and by itself after so many boxes: then
-/// nothing is known.
+/// Does nothing else, so that other questions cost nothing. Ends with the control, and by itself after a number of boxes:
+/// then nothing is known.
 void search_assembly(const Question& question, solve::Control& control, result::Result& result);
 
 /// The result of a question from those of its parts (parts_of).

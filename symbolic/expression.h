@@ -86,7 +86,7 @@ Expression cos(const Expression& x);
 Expression tan(const Expression& x);
 /// The circle constant, as in the model language.
 Expression pi();
-/// So many degrees, exactly: of "15" pi/12, of "22.5" pi/8, of "1" pi/180.
+/// A number of degrees as an exact angle: of "15" pi/12, of "22.5" pi/8, of "1" pi/180.
 Expression degrees(const std::string& decimal, const SourceLocation& where = {});
 
 /// LaTeX for a name: theta2 → \theta_{2}, J3x → J_{3x}, y_A → y_{A}.

@@ -14,7 +14,7 @@
 
 namespace corank::symbolic {
 
-/// So many unknowns, numbered from 0, in lexicographic order.
+/// The unknowns are numbered from 0; the order is lexicographic.
 class PolynomialRing {
  public:
   explicit PolynomialRing(std::size_t unknowns);

@@ -41,8 +41,8 @@ class PassagePlanter {
  public:
   explicit PassagePlanter(unsigned seed) : random_(seed) {}
 
-  /// Of so many equations, dimensions of the right kernel, coordinates at limits; `zeros`: how many numbers of the form
-  /// are 0.
+  /// With these numbers of equations, dimensions of the right kernel, coordinates at limits; `zeros`: how many numbers of
+  /// the form are 0.
   PlantedPassage plant(std::size_t equations, std::size_t kernel, std::size_t limits, std::size_t zeros = 0) {
     const std::size_t e = equations, m = e - 1 + kernel;
     PlantedPassage p;

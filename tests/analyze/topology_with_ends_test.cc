@@ -282,7 +282,7 @@ Triangulation sphere(int n) {
 }
 
 // Spheres and tori cut by one to three half-spaces or balls. No number may be wrong; few may be missing.
-// CORANK_SURFACES=N: so many.
+// CORANK_SURFACES=N: N of them.
 TEST(TopologyWithEnds, OfRandomCutsOfSpheresAndToriIsTheOneOfATriangulation) {
   const char* asked = std::getenv("CORANK_SURFACES");
   const int all = asked ? std::atoi(asked) : 24;

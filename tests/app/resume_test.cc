@@ -42,7 +42,7 @@ void expect_same(const std::string& one, const std::string& other) {
   EXPECT_TRUE(!a.cover.proof || *a.cover.proof == *b.cover.proof);
 }
 
-// The program as a child that ends when it has renamed so many files in the folder, by SIGKILL, or by itself: its status.
+// The program as a child that ends after a number of renames in the folder, by SIGKILL, or by itself: its status.
 std::optional<int> killed_after(int renames, const std::string& folder, const Words& args) {
   const int watch = inotify_init1(IN_CLOEXEC);
   EXPECT_GE(inotify_add_watch(watch, folder.c_str(), IN_MOVED_TO), 0);

@@ -98,7 +98,7 @@ auto upward(F f) {
   return f();
 }
 
-/// x moved by so many units in the last place; finite.
+/// x moved by a number of units in the last place; finite.
 inline double moved(double x, int ulps) {
   for (; ulps > 0; --ulps) x = std::nextafter(x, std::numeric_limits<double>::max());
   for (; ulps < 0; ++ulps) x = std::nextafter(x, std::numeric_limits<double>::lowest());

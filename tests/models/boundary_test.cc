@@ -83,7 +83,7 @@ Tally expect_found(const result::Result& result, const std::vector<Sample>& samp
   return tally;
 }
 
-// Of a form of so many numbers and the normal that it belongs to, n·ü = −form.
+// Of a form's numbers and the normal that it belongs to, n·ü = −form.
 void set_passage(const VectorXd& form, const Vector2d& normal, double least, Sample& sample) {
   if (form.cwiseAbs().minCoeff() < least || normal.norm() < least) return;
   const bool definite = (form.array() > 0).all() || (form.array() < 0).all();

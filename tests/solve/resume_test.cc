@@ -14,7 +14,7 @@ namespace {
 
 struct Killed {};
 
-// Due at random boxes; keeps the state as bytes, and after so many times throws, as if the process had ended.
+// Due at random boxes; keeps the state as bytes, and after a number of times throws, as if the process had ended.
 class RandomJournal : public Journal {
  public:
   RandomJournal(unsigned seed, int one_in, int most) : random_(seed), one_in_(one_in), most_(most) {}
@@ -130,7 +130,7 @@ TEST(Resuming, WhatBoxLimitsHaveEndedMakesTheCoverOfOneSearch) {
 TEST(Resuming, WhatTheClockHasEndedAnywhereMakesTheCoverOfOneSearch) {
   Options options;
   options.sigma = 0.2;
-  const auto clock_of = [](int glances) {  // its time is over after so many looks
+  const auto clock_of = [](int glances) {  // its time is over after that many looks
     auto count = std::make_shared<std::atomic<int>>(0);
     return Control::Limits{.time = 1, .clock = [count, glances] { return (*count)++ > glances ? 10.0 : 0.0; }};
   };
