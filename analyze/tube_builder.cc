@@ -14,24 +14,29 @@ constexpr int kMostHalvings = 26;
 constexpr double kLeastRadius = 1e-9;
 constexpr double kShortest = 1e-7;  // step
 
+// cos 1, cos 2 …
+Eigen::MatrixXd generic(Eigen::Index rows, Eigen::Index columns) {
+  return Eigen::VectorXd::LinSpaced(rows * columns, 1, static_cast<double>(rows * columns))
+      .array()
+      .cos()
+      .matrix()
+      .reshaped(rows, columns);
+}
+
 }  // namespace
 
 TubeBuilder::TubeBuilder(const PathSpace& space) : space_(space), prover_(space.system(), space.matrices(), space.ranks()) {}
 
 // The rows of T follow each other along the path as nearly as tangent spaces allow: the rotation of the basis that is
-// nearest to the basis before, by the singular vectors of their products.
+// nearest to the basis before, by the singular vectors of their products; of the first node to a generic one, so that
+// roundings, which decide which basis the tangent space gets, change little.
 std::optional<TubeBuilder::Node> TubeBuilder::node(const PathSpace::Point& x, const Node* before) {
   Node result;
   result.point = x;
   const Eigen::MatrixXd basis = space_.tangent(x);
   if (!basis.allFinite() || basis.cols() != space_.dimension()) return std::nullopt;
-  if (before) {
-    const Eigen::MatrixXd product = before->across * basis;
-    const SingularValueDecomposition svd = decompose(product);
-    result.across = svd.u * svd.v.transpose() * basis.transpose();
-  } else {
-    result.across = basis.transpose();
-  }
+  const SingularValueDecomposition svd = decompose((before ? before->across : generic(basis.cols(), basis.rows())) * basis);
+  result.across = svd.u * svd.v.transpose() * basis.transpose();
   const Eigen::VectorXd c = result.across * x;
   for (Eigen::Index i = 0; i < result.across.rows(); ++i)
     for (Eigen::Index j = 0; j < result.across.cols(); ++j)
@@ -70,7 +75,7 @@ std::optional<TubeBuilder::Node> TubeBuilder::connect(Tube& tube, const Node& a,
   return middle ? connect(tube, *middle, b, radius, depth + 1, control) : std::nullopt;
 }
 
-// By doubling and halving; about a tenth of it is given away.
+// By doubling and halving; a hundredth of it is given away.
 double TubeBuilder::widest_radius(const Box& piece, double known, double guess) const {
   const auto is_free = [&](double r) { return prover_.is_free(piece, r, space_.sizes()); };
   double low = known, high = std::max(guess, 2 * known);
@@ -81,7 +86,7 @@ double TubeBuilder::widest_radius(const Box& piece, double known, double guess) 
     while (high > 4 * low && !is_free(high)) high /= 2;
     if (is_free(high)) low = high, high *= 2;
   }
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 6; ++k) {
     const double middle = std::sqrt(low * high);
     (is_free(middle) ? low : high) = middle;
   }
