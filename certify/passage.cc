@@ -123,14 +123,14 @@ std::optional<IntervalMatrix> PassageTest::reduce(const Box& box, const Basis& b
   return congruent(h, *w);
 }
 
-Interval PassageTest::along(const std::vector<double>& side, const Box& box) const {
+Interval PassageTest::along_normal(const std::vector<double>& side, const Box& box) const {
   Interval sum;
   for (std::size_t i = 0; i < side.size(); ++i) sum += scale(side[i], value(normal(static_cast<int>(i)), box));
   return sum;
 }
 
 bool PassageTest::holds(const Claim& claim, const Box& box) const {
-  const Interval along = this->along(claim.side, box);
+  const Interval along = along_normal(claim.side, box);
   const bool barrier = claim.passage == Passage::barrier;
   // Hypothesis (1), and of a barrier that −sign·n is on the side named.
   if (along.contains_zero() || (barrier && (claim.sign > 0) != (along.hi() < 0))) return false;
@@ -185,7 +185,7 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
   }
   for (int i = 0; i < static_cast<int>(form_->normal.size()); ++i) claim.side.push_back(value(normal(i), middle_box).mid());
   // Outputs of unlike units: the one whose numbers are largest may steer the normal, and have no sign over the box.
-  if (along(claim.side, box).contains_zero())
+  if (along_normal(claim.side, box).contains_zero())
     for (std::size_t i = 0; i < claim.side.size(); ++i)
       if (value(normal(static_cast<int>(i)), box).contains_zero()) claim.side[i] = 0;
   double size = 0;

@@ -51,7 +51,7 @@ class PassageTest {
   bool holds(const Claim& claim, const Box& box) const;
   bool holds(const Claim& claim, Box box, int halvings) const;
   bool contract(Box& box) const;
-  Interval along(const std::vector<double>& side, const Box& box) const;  ///< n·side
+  Interval along_normal(const std::vector<double>& side, const Box& box) const;  ///< n·side
   Claim guess(const Box& box) const;
   int hessian(int j, int k) const;
   int slack(int i) const;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "corank/kinematics/parallelograms.h"
 
@@ -284,13 +286,15 @@ std::vector<symbolic::Condition> conditions_of(const Robot& robot, const Bodies&
     static_cast<void>(algebra.sign(dot(a, b).expand()));
   }
   const Algebra::Translation text(algebra);
+  std::multimap<std::pair<std::size_t, std::string>, symbolic::Condition>
+      by_text;  // GiNaC's order is another in each process
+  for (const auto& [value, sign] : algebra.decisions()) {
+    const symbolic::Condition condition{text(value), sign};
+    const std::string written = condition.value.text();
+    by_text.emplace(std::pair(written.size(), written), condition);
+  }
   std::vector<symbolic::Condition> list;
-  for (const auto& [value, sign] : algebra.decisions()) list.push_back({text(value), sign});
-  // GiNaC's order is another in each process.
-  std::ranges::sort(list, {}, [](const symbolic::Condition& c) {
-    const std::string written = c.value.text();
-    return std::pair(written.size(), written);
-  });
+  for (const auto& [written, condition] : by_text) list.push_back(condition);
   return list;
 }
 

@@ -61,7 +61,7 @@ struct JointTraits {
   JointKind kind;
   const char* name;        ///< "revolute" …, "fix", "sph_sph", "sph_prs_sph", "uni_prs_uni"
   int freedom;             ///< in how many ways its links move on each other
-  std::size_t ranges = 0;  ///< at most, each of a value of its own
+  std::size_t ranges = 0;  ///< how many it may be given, each for one of its values
   bool has_axis = false;
   bool has_angle = false;  ///< which counts from a zero direction
 };

@@ -194,16 +194,14 @@ ConstantValues constant_values(const symbolic::Mechanism& mechanism) {
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   constexpr const char* kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text((bytes.size() + 2) / 3 * 4, '=');
-  char* to = text.data();
-  const auto write = [&to](std::uint32_t group, int characters) {
-    for (int k = 0; k < characters; ++k) *to++ = kAlphabet[group >> (18 - 6 * k) & 63];
-  };
-  const std::uint8_t* from = bytes.data();
-  const std::size_t rest = bytes.size() % 3;
-  for (const std::uint8_t* const end = from + bytes.size() - rest; from != end; from += 3)
-    write(from[0] << 16 | from[1] << 8 | from[2], 4);
-  if (rest > 0) write(from[0] << 16 | (rest > 1 ? from[1] << 8 : 0), rest == 1 ? 2 : 3);
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kAlphabet[group >> (18 - 6 * k) & 63] : '=';
+  }
   return text;
 }
 

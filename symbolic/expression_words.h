@@ -33,7 +33,7 @@ std::string counted(std::size_t n, const std::string& noun);
 /// The fewest letters to insert, delete or replace that turn a into b. Capital letters count as small ones.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 /// The known name that an author may have meant: the one with the least edit_distance, where that is small for the length of
-/// both. Empty where there is none.
+/// both. Empty where no known name is that near.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& known);
 /// "; did you mean 'hand'?" or nothing.
 std::string suggestion(const std::string& name, const std::vector<std::string>& known);

@@ -21,7 +21,7 @@ namespace corank::symbolic {
 
 /// As GiNaC prints it.
 std::string text_of(const GiNaC::ex& e);
-/// The terms of a sum (Kind: GiNaC::add), the factors of a product (GiNaC::mul); e itself where it is none.
+/// The terms of a sum (Kind: GiNaC::add) or the factors of a product (GiNaC::mul). Any other expression is its only part.
 template <typename Kind>
 GiNaC::exvector parts_of(const GiNaC::ex& e) {
   return GiNaC::is_a<Kind>(e) ? GiNaC::exvector(e.begin(), e.end()) : GiNaC::exvector{e};
