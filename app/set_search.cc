@@ -7,6 +7,7 @@
 
 #include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
+#include "corank/app/watch.h"
 #include "corank/report/page.h"
 #include "corank/result/verification.h"
 #include "corank/study/answer.h"
@@ -104,7 +105,7 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
   System system =
       systems.parts.front().part ? result::system_of(question.model, result) : std::move(systems.of_parts.front());
   return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation(),
-                          [&control] { return control.overdue(); });
+                          [&control] { return control.overdue() || Interrupt::stop(); });
 }
 
 }  // namespace corank::app

@@ -13,40 +13,43 @@ namespace corank {
 namespace {
 
 constexpr std::size_t kLeaf = 8, kManyBoxes = 1'000'000, kLeafOfMany = 32;  // fewer nodes, whose bounds take memory
-constexpr std::size_t kBetweenChecks = 256;
+constexpr std::size_t kBetweenChecks = 256, kSample = 64;
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<const Box*> boxes, std::size_t sides)
+BoxTree::BoxTree(std::vector<const Box*> boxes, std::size_t sides, const Ended& ended)
     : boxes_(std::move(boxes)), sides_(sides), order_(boxes_.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   Room room;
-  if (!boxes_.empty()) build(0, boxes_.size(), room);
+  if (!boxes_.empty()) build(0, boxes_.size(), room, ended);
 }
 
-std::size_t BoxTree::build(std::size_t begin, std::size_t end, Room& room) {
+std::size_t BoxTree::build(std::size_t begin, std::size_t end, Room& room, const Ended& ended) {
   const std::size_t node = nodes_.size();
   nodes_.push_back({begin, end});
   bounds_.resize(bounds_.size() + sides_);
-  Interval* const hull = bounds_.data() + node * sides_;
-  std::copy_n(boxes_[order_[begin]]->data(), sides_, hull);
-  const bool leaf = end - begin <= (boxes_.size() < kManyBoxes ? kLeaf : kLeafOfMany);
-  std::vector<Spread> middles(leaf ? 0 : sides_);
-  for (std::size_t k = begin; k < end; ++k) {  // box by box: each is somewhere else in memory
-    const Interval* const box = boxes_[order_[k]]->data();
-    include({hull, sides_}, {box, sides_});
-    for (std::size_t j = 0; j < middles.size(); ++j) middles[j].add(box[j].mid());
+  const auto hull = [&] { return bounds_.data() + node * sides_; };
+  const auto box = [&](std::size_t k) { return boxes_[order_[k]]->data(); };
+  const bool is_leaf = end - begin <= (boxes_.size() < kManyBoxes ? kLeaf : kLeafOfMany);
+  if (is_leaf || (end - begin >= kBetweenChecks && is_over(ended))) {
+    std::copy_n(box(begin), sides_, hull());
+    for (std::size_t k = begin + 1; k < end; ++k) include({hull(), sides_}, {box(k), sides_});
+    return node;
   }
-  if (leaf) return node;
-  // Halves by the midpoints along the side in which they spread most.
+  // Halves by the midpoints along the side in which they spread most, as far as a sample of them tells.
+  std::vector<Spread> middles(sides_);
+  for (std::size_t k = begin; k < end; k += 1 + (end - begin) / kSample)  // box by box: each is somewhere else in memory
+    for (std::size_t j = 0; j < sides_; ++j) middles[j].add(box(k)[j].mid());
   const std::size_t along = widest(middles);
   halve(
       std::span(order_).subspan(begin, end - begin), [&](std::size_t k) { return (*boxes_[k])[along].mid(); },
       [](const auto& a, const auto& b) { return a.first < b.first; }, room);
   const std::size_t middle = begin + (end - begin) / 2;
-  build(begin, middle, room);
-  const std::size_t right = build(middle, end, room);
+  build(begin, middle, room, ended);
+  const std::size_t right = build(middle, end, room, ended);
   nodes_[node].right = right;
+  std::copy_n(bounds(node + 1), sides_, hull());
+  include({hull(), sides_}, {bounds(right), sides_});
   return node;
 }
 

@@ -14,8 +14,9 @@ namespace corank {
 
 class BoxTree {
  public:
-  /// The boxes are referred to; their first `sides` sides count (all have at least these).
-  BoxTree(std::vector<const Box*> boxes, std::size_t sides);
+  /// The boxes are referred to; their first `sides` sides count (all have at least these). Once `ended` is true, the tree is
+  /// divided no further: it finds the same, more slowly.
+  BoxTree(std::vector<const Box*> boxes, std::size_t sides, const Ended& ended = {});
 
   std::size_t size() const { return boxes_.size(); }
   /// Calls visit(index) for each box whose sides all overlap those of x when widened by gap ≥ 0, in no particular order.
@@ -37,7 +38,7 @@ class BoxTree {
   class Grouping;
 
   using Room = std::vector<std::pair<double, std::size_t>>;
-  std::size_t build(std::size_t begin, std::size_t end, Room& room);
+  std::size_t build(std::size_t begin, std::size_t end, Room& room, const Ended& ended);
   // The bounds of a node: sides_ intervals from here on.
   const Interval* bounds(std::size_t node) const { return bounds_.data() + node * sides_; }
   bool overlap(const Interval* a, const Box& x, double gap) const {

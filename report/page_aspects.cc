@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "corank/report/box_payload.h"
 #include "corank/report/page_data.h"
 #include "corank/report/template_data.h"
 

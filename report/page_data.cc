@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
+#include "corank/report/box_payload.h"
 #include "corank/report/set_look.h"
 #include "corank/report/template_data.h"
 #include "corank/symbolic/algebrizer.h"
@@ -41,8 +39,6 @@ Json tree(const Expression& e, const ConstantValues& constants) {
   for (const Expression& operand : e.operands()) node.push_back(tree(operand, constants));
   return node;
 }
-
-static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
 
 std::string_view role(const symbolic::Mechanism& mechanism, const symbolic::Coordinate& c) {
   const symbolic::Role role = role_of(mechanism, c.name);
@@ -155,77 +151,12 @@ Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& de
   return set;
 }
 
-std::string base64_of(const std::vector<float>& numbers) {
-  return base64({reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(float)});
-}
-
-// A byte of each box.
-template <class Of>
-std::string bytes_of(std::span<const CoverBox> boxes, const Of& of) {
-  std::vector<std::uint8_t> bytes;
-  for (const CoverBox& b : boxes) bytes.push_back(static_cast<std::uint8_t>(of(b)));
-  return base64(bytes);
-}
-
-// Two floats for each output: where barriers keep it.
-std::string sides_payload(std::span<const CoverBox> boxes, std::size_t outputs) {
-  std::vector<float> numbers;
-  for (const CoverBox& b : boxes)
-    for (std::size_t j = 0; j < outputs; ++j)
-      numbers.push_back(b.passage == Passage::barrier && b.side.size() == outputs ? static_cast<float>(b.side[j]) : 0.0F);
-  return base64_of(numbers);
-}
-
-// The float below or equal, above or equal.
-float float_below(double x) {
-  const auto f = static_cast<float>(x);
-  return static_cast<double>(f) <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
-
-float float_above(double x) { return -float_below(-x); }
-
 }  // namespace
 
 ConstantValues constant_values(const symbolic::Mechanism& mechanism) {
   ConstantValues values;
   for (const symbolic::Constant& c : mechanism.constants()) values[c.name] = evaluate(c.value, values);
   return values;
-}
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  constexpr const char* kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kAlphabet[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-std::string box_payload(std::span<const CoverBox> boxes) {
-  std::vector<int> all(boxes.empty() ? 0 : boxes.front().box.size());
-  std::iota(all.begin(), all.end(), 0);
-  return box_payload(boxes, all);
-}
-
-std::string box_payload(std::span<const CoverBox> boxes, std::span<const int> variables) {
-  std::vector<float> numbers;
-  numbers.reserve(boxes.size() * variables.size() * 2);
-  for (const CoverBox& b : boxes) {
-    for (const int v : variables) {
-      const Interval& side = b.box[v];
-      numbers.push_back(float_below(side.lo()));
-      numbers.push_back(float_above(side.hi()));
-    }
-  }
-  return base64_of(numbers);
-}
-
-std::string verdict_payload(std::span<const CoverBox> boxes) {
-  return bytes_of(boxes, [](const CoverBox& b) { return b.verdict; });
 }
 
 std::string script_safe(std::string text) {
@@ -248,13 +179,13 @@ Json set_description(const SetView& view) {
   const Json locked = each(view.set->locked, [](symbolic::Role role) { return to_string(role); });
   const Cover& cover = view.result.cover;
   const std::vector<CoverBox>& boxes = view.drawn();
-  const std::string types = cover.types.asked == 0 ? "" : bytes_of(boxes, [](const CoverBox& b) {
+  const std::string types = cover.types.asked == 0 ? "" : byte_payload(boxes, [](const CoverBox& b) {
     return holds_a_solution(b) ? b.types.proven : TypeSet{};
   });
   const std::vector<std::string>& outputs = view.result.outputs;  // of a workspace boundary
   Json passage;
   if (!outputs.empty())
-    passage = {{"of", bytes_of(boxes, [](const CoverBox& b) { return b.passage; })},
+    passage = {{"of", byte_payload(boxes, [](const CoverBox& b) { return b.passage; })},
                {"outputs", outputs},
                {"sides", sides_payload(boxes, outputs.size())}};
   return {{"name", view.set->name},

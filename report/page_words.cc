@@ -132,7 +132,9 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   const Cover& cover = result.cover;
   words.finding = fmt::format("{}: {}", shape(cover.dimension), boxes_text(cover.boxes.size()));
   if (found.counted) words.finding += fmt::format(" in {} of touching boxes", counted(found.count, "component"));
-  const std::size_t regular = cover.count(Verdict::regular), boundary = cover.count(Verdict::boundary);
+  const auto counts = cover.counts();
+  const auto count = [&](Verdict verdict) { return counts[index(verdict)]; };
+  const std::size_t regular = count(Verdict::regular), boundary = count(Verdict::boundary);
   if (regular > 0)
     words.proven.push_back(fmt::format(
         "In {} of {} boxes ({}) the {} is one smooth piece: for every value of {} free coordinate{} there is "
@@ -142,14 +144,14 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   if (boundary > 0)
     words.proven.push_back(
         fmt::format("In {} the same is proven for a piece that may reach beyond the search domain.", boxes_text(boundary)));
-  if (found.count > 1 && cover.complete())
+  if (found.count > 1 && count(Verdict::pending) == 0)
     words.proven.push_back(fmt::format("No two of the {} components are connected; {} of them {} proven to hold solutions.",
                                        found.count, found.with_proven_solution,
                                        found.with_proven_solution == 1 ? "is" : "are"));
   words.unproven.push_back(found.counted ? "It is not proven that the solutions in one component form one piece: components "
                                            "are counted by boxes that touch."
                                          : "The components were not counted, because the run was ended.");
-  if (const std::size_t partial = cover.count(Verdict::partial); partial > 0)
+  if (const std::size_t partial = count(Verdict::partial); partial > 0)
     words.unproven.push_back(
         fmt::format("In {} only independent equations are proven to hold, the others within a tolerance of {:g}.",
                     boxes_text(partial), cover.tolerance));
@@ -158,7 +160,7 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   say_parts(result, words);
   const std::size_t explained =
       how_many(cover.boxes, [](const auto& b) { return b.verdict == Verdict::undecided && b.point >= 0; });
-  const std::size_t open = cover.count(Verdict::undecided) - explained;
+  const std::size_t open = count(Verdict::undecided) - explained;
   if (explained > 0)
     words.unproven.push_back(
         fmt::format("{} undecided around a point that is known exactly: it is open whether {} anything else.",

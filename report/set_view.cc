@@ -22,7 +22,7 @@ Components components(const std::vector<CoverBox>& boxes, std::size_t configurat
   std::vector<const Box*> sides;
   sides.reserve(boxes.size());
   for (const CoverBox& b : boxes) sides.push_back(&b.box);
-  const BoxTree tree(std::move(sides), configuration_size);
+  const BoxTree tree(std::move(sides), configuration_size, ended);
   Components found;
   found.of_box = tree.groups(0, ended);
   if (is_over(ended)) return none;

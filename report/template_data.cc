@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "corank/report/box_payload.h"
 #include "corank/report/page_assets.h"
 #include "corank/report/page_data.h"
 #include "corank/report/page_words.h"
@@ -64,10 +65,10 @@ std::string card_html(const SetView& view) {
   card["meaning"] = words.meaning;
   card["finding"] = words.finding;
   add_findings(words, card);
-  const Cover& cover = view.result.cover;
+  const auto counts = view.result.cover.counts();
   for (int v = 0; v < kVerdicts; ++v) {
     const auto verdict = static_cast<Verdict>(v);
-    const std::size_t count = cover.count(verdict), all = cover.boxes.size();
+    const std::size_t count = counts[index(verdict)], all = view.result.cover.boxes.size();
     if (count == 0) continue;
     TemplateData part{"verdict", std::string(to_string(verdict))};
     part["count"] = grouped(count);

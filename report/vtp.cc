@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "corank/core/check.h"
-#include "corank/report/page_data.h"
+#include "corank/report/box_payload.h"
 
 namespace corank::report {
 namespace {

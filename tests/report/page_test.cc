@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "corank/report/box_payload.h"
 #include "corank/report/page_data.h"
 #include "corank/result/hdf5_file.h"
 #include "corank/solve/solve.h"
