@@ -16,13 +16,16 @@
 namespace corank::analyze {
 namespace {
 
-// Squares of side h, a power of two, at its multiples: every corner is a double.
+// Squares of side h, a number of few digits, at its multiples: every corner is a double.
 class Grid {
  public:
   Grid(const Interval& x, const Interval& y, double fineness) {
     constexpr double kMostSquares = 2.5e7;
     const double side = std::max(x.width(), y.width());
-    h_ = std::exp2(std::floor(std::log2(std::max(side * fineness, 1e-300))));
+    // Five binary digits, so that the number of squares is nearly the same in every unit of length.
+    int exponent = 0;
+    const double digits = std::floor(32 * std::frexp(std::max(side * fineness, 1e-300), &exponent));
+    h_ = std::ldexp(digits, exponent - 5);
     while ((x.width() / h_ + 4) * (y.width() / h_ + 4) > kMostSquares) h_ *= 2;
     x0_ = static_cast<std::int64_t>(std::floor(x.lo() / h_)) - 2;
     y0_ = static_cast<std::int64_t>(std::floor(y.lo() / h_)) - 2;
@@ -31,13 +34,17 @@ class Grid {
     from_boundary_.assign(nx_ * ny_, kFar);
   }
 
-  /// All closed squares that meet the closed rectangle: a quotient by a power of two is exact.
+  /// All closed squares that meet the closed rectangle. A quotient by h is rounded, a corner is not.
   void mark(const Interval& x, const Interval& y) {
     const auto first = [&](double lo, std::int64_t origin) {
-      return std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(lo / h_)) - 1 - origin);
+      auto i = static_cast<std::int64_t>(std::floor(lo / h_)) - 2;
+      while (static_cast<double>(i + 1) * h_ < lo) ++i;
+      return std::max<std::int64_t>(0, i - origin);
     };
     const auto last = [&](double hi, std::int64_t origin, std::int64_t n) {
-      return std::min(n - 1, static_cast<std::int64_t>(std::floor(hi / h_)) - origin);
+      auto i = static_cast<std::int64_t>(std::ceil(hi / h_)) + 1;
+      while (static_cast<double>(i) * h_ > hi) --i;
+      return std::min(n - 1, i - origin);
     };
     for (std::int64_t i = first(x.lo(), x0_); i <= last(x.hi(), x0_, nx_); ++i)
       for (std::int64_t j = first(y.lo(), y0_); j <= last(y.hi(), y0_, ny_); ++j) at(from_boundary_, i, j) = 0;
@@ -185,7 +192,7 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
       for (std::size_t k = 0; k < 2; ++k) hull[k] = Interval::hull(hull[k], b[k]);
     sigma = std::max(hull[0].width(), hull[1].width()) * options.fineness;
     if (!fine) continue;
-    Grid grid(hull[0], hull[1], options.fineness / 2);
+    Grid grid(hull[0], hull[1], options.fineness / 2.5);
     for (const Box& b : boundary) grid.mark(b[0], b[1]);
     std::vector<Grid::Component> components = grid.components();
     std::erase_if(components, [](const Grid::Component& c) { return c.outer; });
@@ -200,7 +207,7 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
       bounds.cells += tested;
       (found > 0 ? in : open) += found < 0 ? 0 : c.squares;
     }
-    bounds.lo = static_cast<double>(in) * grid.square();  // exact: h² is a power of two
+    bounds.lo = static_cast<double>(in) * grid.square();  // exact: h² has ten digits
     bounds.hi = static_cast<double>(in + open) * grid.square();
     return bounds;
   }

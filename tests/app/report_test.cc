@@ -5,7 +5,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "corank/report/page_data.h"
+#include "corank/report/box_payload.h"
 #include "corank/result/result_file.h"
 #include "corank/tests/app/program.h"
 #include "corank/tests/report/page_text.h"
