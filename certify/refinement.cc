@@ -198,6 +198,32 @@ std::optional<std::vector<double>> approached(const System& system, std::vector<
   return nearest;
 }
 
+// Gauss–Newton from a point that is exact to doubles, with the slopes there in doubles and values in `bits` bits: where the
+// rank is the same all about, a step gains nearly the digits of a double, and takes a thousandth of the time of one whose
+// slopes have `bits` bits. False where steps gain less.
+bool iterate_with_double_slopes(const System& system, const Equations<Real>& f, const std::vector<double>& from,
+                                std::vector<Real>& x, int bits) {
+  constexpr double kThreshold = 1e-9, kLeastGain = 1e-4;
+  const double enough = std::ldexp(1, -bits / 2 + 8);
+  Eigen::MatrixXd slopes = jacobian(Equations<double>(system, [](const ExactNumber& c) { return c.enclose().mid(); }), from);
+  if (slopes.size() == 0 || !slopes.allFinite()) return false;
+  Eigen::VectorXd sizes = slopes.rowwise().lpNorm<Eigen::Infinity>();
+  for (double& size : sizes) size = size > 0 ? std::exp2(std::ilogb(size)) : 1;
+  slopes.array().colwise() /= sizes.array();
+  for (double shortest = 1; shortest >= enough;) {
+    const Vector<Real> value = values(f, x);
+    Eigen::VectorXd residual(value.size());
+    for (Eigen::Index k = 0; k < value.size(); ++k) residual(k) = mpfr_get_d(value(k).data(), MPFR_RNDN) / sizes(k);
+    const Eigen::VectorXd shift = least_squares(slopes, residual, kThreshold).x;
+    const double length = shift.lpNorm<Eigen::Infinity>();
+    if (!(length <= kLeastGain * shortest)) return false;
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] -= shift(k);
+    shortest = length;
+  }
+  const Vector<Real> residual = values(f, x);
+  return std::ranges::all_of(residual, [&](const Real& value) { return abs(value) < enough; });
+}
+
 std::vector<Real> reals(const std::vector<ExactNumber>& x) {
   std::vector<Real> result;
   for (const ExactNumber& c : x) result.push_back(to_real(c));
@@ -283,8 +309,12 @@ std::optional<std::vector<ExactNumber>> approximate_zero(const System& system, c
   for (const ExactNumber& c : start) near.push_back(c.enclose().mid());
   const auto closer = approached(system, std::move(near), ended);
   if (!closer) return std::nullopt;
+  const Equations<Real> f = real_equations(system, bits);
   std::vector<Real> x(closer->begin(), closer->end());
-  if (!iterate(real_equations(system, bits), x, bits, ended)) return std::nullopt;
+  if (!iterate_with_double_slopes(system, f, *closer, x, bits)) {
+    x.assign(closer->begin(), closer->end());
+    if (!iterate(f, x, bits, ended)) return std::nullopt;
+  }
   std::vector<ExactNumber> result;
   for (const Real& c : x) result.push_back(from_mpfr(c.data()));
   return result;
