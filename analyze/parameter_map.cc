@@ -36,9 +36,10 @@ constexpr double kFoldWidth = 1;       // of a box of the curve, in edges of the
 
 const char* const kAnswers[] = {"solutions", "components", "aspects", "assembly-modes", "working-modes"};
 
-// A control for one of several threads, which ends when the one of all does.
+// For the control of one of several threads, which ends when the one of all does, of whatever number of boxes.
 solve::Control::Limits as_of(const solve::Control& all) {
-  return {.time = 0.5, .clock = [&all] { return all.ended() ? 1.0 : 0.0; }};
+  const solve::Control::Limits rest = all.rest(0, 0);
+  return {.time = rest.time, .stop = rest.stop, .clock = rest.clock};
 }
 
 Interval part_of(const Interval& side, int k, int n) {

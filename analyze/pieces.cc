@@ -60,6 +60,10 @@ class PieceCounter {
     part_of_.resize(cells_.cells().size());
     for (std::size_t c = 0; c < cells_.cells().size(); ++c) {
       const SignCell& cell = cells_.cells()[c];
+      if (!cell.mixed.empty() && control_.ended()) {
+        crowded_ = true;
+        continue;
+      }
       const std::vector<Signs> choices = cells_.choices(cell);
       crowded_ = crowded_ || choices.empty();
       for (const Signs& signs : choices) {

@@ -310,7 +310,7 @@ void SignCells::refine(int halvings, int rounds, solve::Control& control) {
           continue;
         }
       // A corner on the zeros themselves: the third lemma does.
-      if (!now.cell.resolved) now.cell.resolved = find_directions(now.cell);
+      if (!now.cell.resolved && !control.ended()) now.cell.resolved = find_directions(now.cell);
       done.push_back(std::move(now.cell));
     }
     cells_ = std::move(done);

@@ -34,9 +34,9 @@ struct ReportCommand {
   JsonOption json;
 };
 
-/// `left_out`: sets of very many parts whose equations took longer than their search may.
+/// Writes each set's file, too. `left_out`: sets of very many parts whose equations took longer than their search may.
 std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question,
-                                       std::vector<std::string>& left_out) {
+                                       std::vector<std::string>& files, std::vector<std::string>& left_out) {
   std::vector<report::SetView> views;
   std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
@@ -46,6 +46,12 @@ std::vector<report::SetView> solve_all(const ReportCommand& command, const study
       left_out.push_back(command.search.sets[i]);
       continue;
     }
+    const result::Result& result = view->result;
+    ProgressLine line;
+    line.show("writing " + result.set + ".h5");
+    files.push_back(result.set + ".h5");
+    result::write_result(std::filesystem::path(command.folder) / files.back(), result,
+                         [] { return Interrupt::stop().load(); });
     views.push_back(std::move(*view));
     taken += solve::bytes_of(views.back().result.cover, solve::kPageBytes);
   }
@@ -116,7 +122,7 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results: expected no FILE beside it: the results hold their model");
   command.search.validate();
-  std::vector<report::SetView> views;
+  auto& views = *new std::vector<report::SetView>;  // not freed: the process ends with the command
   if (!command.results.empty()) views = read_all(command.results);
   const study::Question question =
       views.empty() ? load(command.question) : study::Question{.model = result::model_of(views.front().result)};
@@ -130,18 +136,11 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   report::PageOptions options;
   std::vector<std::string> left_out;
   if (views.empty()) {
-    views = solve_all(command, question, left_out);
+    views = solve_all(command, question, options.files, left_out);
     for (const std::string& set : left_out)
       fmt::print(stderr, "corank: {}: its equations were not derived in time; it is left out\n", set);
     if (views.empty()) return kIncomplete;
     options.command = command.search.command_line("report", command.question);
-    ProgressLine line;
-    for (const auto& view : views) {
-      const result::Result& result = view.result;
-      line.show("writing " + result.set + ".h5");
-      options.files.push_back(result.set + ".h5");
-      result::write_result(folder / options.files.back(), result, [] { return Interrupt::stop().load(); });
-    }
   } else {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
     for (const std::string& path : command.results) options.files.push_back(std::filesystem::path(path).filename().string());

@@ -13,7 +13,7 @@ namespace corank {
 namespace {
 
 constexpr std::size_t kLeaf = 8, kManyBoxes = 1'000'000, kLeafOfMany = 32;  // fewer nodes, whose bounds take memory
-constexpr std::size_t kBetweenChecks = 256, kSample = 64;
+constexpr std::size_t kBetweenChecks = 256;
 
 }  // namespace
 
@@ -36,13 +36,12 @@ std::size_t BoxTree::build(std::size_t begin, std::size_t end, Room& room, const
     for (std::size_t k = begin + 1; k < end; ++k) include({hull(), sides_}, {box(k), sides_});
     return node;
   }
-  // Halves by the midpoints along the side in which they spread most, as far as a sample of them tells.
-  std::vector<Spread> middles(sides_);
-  for (std::size_t k = begin; k < end; k += 1 + (end - begin) / kSample)  // box by box: each is somewhere else in memory
-    for (std::size_t j = 0; j < sides_; ++j) middles[j].add(box(k)[j].mid());
-  const std::size_t along = widest(middles);
+  // Halves by the midpoints along the side in which they spread most.
+  const std::span<std::size_t> members = std::span(order_).subspan(begin, end - begin);
+  const auto middle_of = [&](std::size_t k, std::size_t j) { return (*boxes_[k])[j].mid(); };
+  const std::size_t along = widest_side(std::span<const std::size_t>(members), sides_, middle_of);
   halve(
-      std::span(order_).subspan(begin, end - begin), [&](std::size_t k) { return (*boxes_[k])[along].mid(); },
+      members, [&](std::size_t k) { return middle_of(k, along); },
       [](const auto& a, const auto& b) { return a.first < b.first; }, room);
   const std::size_t middle = begin + (end - begin) / 2;
   build(begin, middle, room, ended);

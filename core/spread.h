@@ -10,20 +10,20 @@
 
 namespace corank {
 
-struct Spread {
-  double least = HUGE_VAL, greatest = -HUGE_VAL;
-  void add(double x) {
-    least = std::min(least, x);
-    greatest = std::max(greatest, x);
-  }
-};
-
-/// The first one that is widest; 0 where there is none.
-inline std::size_t widest(std::span<const Spread> spreads) {
-  std::size_t result = 0;
-  for (std::size_t j = 1; j < spreads.size(); ++j)
-    if (spreads[j].greatest - spreads[j].least > spreads[result].greatest - spreads[result].least) result = j;
-  return result;
+/// The first side in which the members' numbers spread most, as far as 64 of them or fewer tell. `number`: of a member and a
+/// side. 0 where there is no side.
+template <class Member, class Number>
+std::size_t widest_side(std::span<const Member> list, std::size_t sides, Number number) {
+  constexpr std::size_t kSample = 64;
+  std::vector<std::pair<double, double>> spreads(sides, {HUGE_VAL, -HUGE_VAL});
+  for (std::size_t k = 0; k < list.size(); k += 1 + list.size() / kSample)  // each is somewhere else in memory
+    for (std::size_t j = 0; j < sides; ++j) {
+      auto& [least, greatest] = spreads[j];
+      least = std::min(least, number(list[k], j));
+      greatest = std::max(greatest, number(list[k], j));
+    }
+  const auto width = [](const auto& spread) { return spread.second - spread.first; };
+  return std::ranges::max_element(spreads, {}, width) - spreads.begin();
 }
 
 /// Halves a list: no member of the first half, which may have one less, comes after one of the second by `before`, which

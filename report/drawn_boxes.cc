@@ -33,10 +33,8 @@ class Hulls {
   // Halves along the side in which the middles spread most.
   void split(Place begin, Place end) {
     if (static_cast<std::size_t>(end - begin) <= in_one_) return add(begin, end);
-    std::vector<Spread> middles(sides_);
-    for (Place k = begin; k != end; ++k)  // box by box: each is somewhere else in memory
-      for (std::size_t j = 0; j < sides_; ++j) middles[j].add(middle(*k, j));
-    const std::size_t along = widest(middles);
+    const auto along = widest_side(std::span<const std::uint32_t>(begin, end), sides_,
+                                   [&](std::uint32_t i, std::size_t side) { return middle(i, side); });
     const Place half = begin + (end - begin) / 2;
     halve(
         std::span(begin, end), [&](std::uint32_t i) { return middle(i, along); }, std::less(), room_);

@@ -92,7 +92,9 @@ Json summaries(const std::vector<SetView>& views, const std::vector<std::string>
 std::string filled(std::string_view pattern, const TemplateData& data) {
   kainjow::mustache::mustache page{std::string(pattern)};
   if (!page.is_valid()) throw std::logic_error("a page's template: " + page.error_message());
-  return page.render(data);
+  std::string text;
+  page.render(data, [&text](const std::string& piece) { text += piece; });
+  return text;
 }
 
 }  // namespace corank::report

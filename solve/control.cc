@@ -78,7 +78,7 @@ Control::Limits Control::rest(double seconds, std::uint64_t boxes) const {
   return limits;
 }
 
-bool Control::overdue() const { return ended() && limits_.clock() - ended_at_ >= kGrace; }
+bool Control::overdue(double seconds) const { return ended() && limits_.clock() - ended_at_ >= seconds; }
 
 bool Control::search_ended() const {
   if (ended()) return true;

@@ -88,9 +88,9 @@ class Control {
   bool ended() const;
   /// Until the limit of time; infinite where there is none.
   double seconds_left() const;
-  /// For what makes a result of all that was found, and takes little time: true once the run has ended kGrace seconds ago.
-  bool overdue() const;
-  static constexpr double kGrace = 0.25;
+  /// For what makes a result of all that was found, and takes little time: true once the run has ended so many seconds ago.
+  bool overdue(double seconds = kGrace) const;
+  static constexpr double kGrace = 0.2;
   /// The same as ended() for a search, which also ends where it has used up boxes or memory.
   bool search_ended() const;
   /// A box is about to be processed; false: there is to be none.

@@ -141,6 +141,7 @@ bool Pool::cut(const std::vector<Shard*>& shards, std::size_t most) {
       if (!sheet.cut) sheets.push_back(&sheet);
   const std::vector<Waiting> left = take(shards, &Shard::left);
   std::atomic<bool> paused{false};
+  const double grace = Control::kGrace / threads();  // of all together
   execute([&] {
     const auto cut_one = [&](std::size_t i) {
       const UpwardRounding rounding;
@@ -152,7 +153,7 @@ bool Pool::cut(const std::vector<Shard*>& shards, std::size_t most) {
         }
         if (worker.shard.found.size() > most) return;
         const Shard::Mark before = worker.shard.mark();
-        if (whole_ && tally_.overdue()) {
+        if (whole_ && tally_.overdue(grace)) {
           worker.processor.leave({sheets[i]->x, 0, sheets[i]->node});
         } else {
           sheets[i]->cut = worker.processor.cut(*sheets[i], whole_);

@@ -86,7 +86,7 @@ class Tally {
 
   bool ended();
   /// The run ended a while ago: what is found and not yet a box becomes one without any more work.
-  bool overdue() const { return control_.overdue(); }
+  bool overdue(double seconds) const { return control_.overdue(seconds); }
   /// All threads are to stop between two boxes or sheets, until resume().
   bool pausing();
   void resume() { pausing_ = false; }

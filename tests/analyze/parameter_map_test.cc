@@ -177,6 +177,23 @@ TEST(ParameterMap, LeavesPendingWhatALimitHasLeft) {
   for (const MapCellAnswer& c : map.cells) EXPECT_EQ(c.kind, Kind::pending);
 }
 
+TEST(ParameterMap, SearchesNotForFoldsAfterALimitOfTime) {
+  const ParameterMapper mapper({.question = question_of(kCubic), .over = {{"a", "-2", "1"}, {"b", "-1", "1"}}},
+                               {.resolution = 128, .boundary = true, .threads = 1, .progress = {}});
+  int ended = 0;
+  for (int k = 0; k < ParameterMapper::tiles(); ++k)
+    for (std::uint64_t moment = 2;; moment += 12) {
+      std::uint64_t questions = 0;
+      solve::Control control({.time = 1, .clock = [&] { return ++questions > moment ? 2.0 : 0.0; }});
+      const MapTile tile = mapper.tile(k, control);
+      if (std::ranges::none_of(tile.cells, [](const auto& cell) { return cell.kind == Kind::pending; })) break;
+      if (tile.boundary.empty()) continue;  // there was nothing to search for yet
+      EXPECT_FALSE(tile.boundary_known) << "tile " << k << ", question " << moment;
+      ++ended;
+    }
+  EXPECT_GT(ended, 100);
+}
+
 TEST(ParameterMap, CellsCoverTheRegionOnce) {
   const ParameterMap map = map_of(kCubic, {{"a", "-2", "1"}, {"b", "-1", "1"}});
   double area = 0;
