@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <list>
 #include <map>
 #include <memory>
 
@@ -122,7 +123,8 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results: expected no FILE beside it: the results hold their model");
   command.search.validate();
-  auto& views = *new std::vector<report::SetView>;  // not freed: the process ends with the command
+  static auto* const kept = new std::list<std::vector<report::SetView>>;  // not freed: the process ends with the command
+  std::vector<report::SetView>& views = kept->emplace_back();
   if (!command.results.empty()) views = read_all(command.results);
   const study::Question question =
       views.empty() ? load(command.question) : study::Question{.model = result::model_of(views.front().result)};

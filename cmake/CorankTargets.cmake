@@ -13,6 +13,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # False positives: on std::string (gcc bug 105651), and on vectors where less is optimized.
   target_compile_options(corank_flags INTERFACE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # The compiler collects its garbage more seldom: a tenth of its time, for a fifth more memory.
+  target_compile_options(corank_flags INTERFACE --param=ggc-min-expand=400 --param=ggc-min-heapsize=600000)
+endif()
 if(CORANK_WARNINGS_AS_ERRORS)
   target_compile_options(corank_flags INTERFACE -Werror)
 endif()

@@ -1,7 +1,7 @@
 // Numbers of boxes in base64, as the scripts of a page read them: box after box, floats little-endian.
 //
-// Bounds are doubles rounded outward to floats, so a box of the page holds the box of the result file and is at most one float
-// wider on each side.
+// Bounds are doubles rounded outward to floats, so a box of the page holds the box of the result file and is at most one
+// float wider on each side.
 #pragma once
 
 #include <cstdint>

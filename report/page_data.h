@@ -1,5 +1,5 @@
-// What the scripts of a report's page read: the model as JSON. Each result's boxes are those that are drawn (SetView::drawn),
-// all of them, in the result's order.
+// What the scripts of a report's page read: the model as JSON. Each result's boxes are those that are drawn
+// (SetView::drawn), all of them, in the result's order.
 #pragma once
 
 #include <map>
