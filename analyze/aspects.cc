@@ -79,7 +79,8 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
       unknown.reason = "the analysis was ended by a limit";
       return unknown;
     }
-    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends);
+    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends,
+                    [&control] { return control.ended(); });
     cells.refine(options.halvings, options.rounds, control);
     Pieces found = pieces(cells, control);
     const bool plane = cover.dimension == 2 && options.images.size() == 2 && found.exact();

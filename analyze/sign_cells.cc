@@ -36,7 +36,7 @@ std::vector<double> sizes_of(const System& system, const std::vector<Polynomial>
 }  // namespace
 
 SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
-                     const std::vector<Polynomial>& limits)
+                     const std::vector<Polynomial>& limits, const Ended& ended)
     : system_(system),
       cover_(cover),
       given_(cover.boxes.size()),
@@ -52,8 +52,13 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
     // The sheet of a `boundary` box may go on beyond the domain.
     if (box.verdict == Verdict::boundary)
       for (const int d : solve::other_variables(box.free, system.size())) cell.sides[d] = region(cell)[d];
-    widen_region(cell);
-    evaluate(cell);
+    if (is_over(ended)) {
+      for (int k = 0; k < this->functions(); ++k) cell.mixed.push_back(k);
+      cell.range.assign(cell.mixed.size(), Interval(-HUGE_VAL, HUGE_VAL));
+    } else {
+      widen_region(cell);
+      evaluate(cell);
+    }
     if (!is_outside(cell)) cells_.push_back(std::move(cell));
   }
   boxes_ = box_tree(cover_.boxes, &CoverBox::box);

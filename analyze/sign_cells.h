@@ -39,9 +39,10 @@ struct SignCell : certify::SheetCell {
 /// well: along d the limits grow, so that the border of X_F is reached strictly within them, where S goes on.
 class SignCells {
  public:
-  /// `functions`: in the system's variables; so are the limits', which follow them in every list of signs.
+  /// `functions`: in the system's variables; so are the limits', which follow them in every list of signs. Once `ended` is
+  /// true, of the cells left every sign is open.
   SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
-            const std::vector<Polynomial>& limits = {});
+            const std::vector<Polynomial>& limits = {}, const Ended& ended = {});
 
   /// Divides cells until they are resolved, or the number of halvings of a box is reached; then, so many times, those that
   /// the third lemma resolves and that touch others of their kind with which they share no direction: a sheet of their own

@@ -129,6 +129,9 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   const study::Question question =
       views.empty() ? load(command.question) : study::Question{.model = result::model_of(views.front().result)};
   const symbolic::Mechanism& mechanism = question.model;
+  if (mechanism.is_plain_system())
+    throw symbolic::ModelError({mechanism.name(), 0, 0}, "the model names no inputs and outputs",
+                               "a mechanism, with [INPUTS] and [OUTPUTS]");
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
   check_folder(folder);

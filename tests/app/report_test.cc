@@ -163,6 +163,7 @@ TEST(Report, RefusesAPlainSystemBeforeItSolvesAnything) {
   const Outcome outcome = run_corank({"report", plain, "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.err, HasSubstr("[INPUTS]"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("r") + "/cspace.h5"));
 }
 
 }  // namespace
