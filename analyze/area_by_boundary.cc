@@ -16,13 +16,13 @@
 namespace corank::analyze {
 namespace {
 
-// Squares of side h, a number of few digits, at its multiples: every corner is a double.
+// Squares of side h at its multiples. h has five binary digits, so that every corner is a double and the number of squares
+// is nearly the same in every unit of length.
 class Grid {
  public:
   Grid(const Interval& x, const Interval& y, double fineness) {
     constexpr double kMostSquares = 2.5e7;
     const double side = std::max(x.width(), y.width());
-    // Five binary digits, so that the number of squares is nearly the same in every unit of length.
     int exponent = 0;
     const double digits = std::floor(32 * std::frexp(std::max(side * fineness, 1e-300), &exponent));
     h_ = std::ldexp(digits, exponent - 5);
@@ -207,7 +207,7 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
       bounds.cells += tested;
       (found > 0 ? in : open) += found < 0 ? 0 : c.squares;
     }
-    bounds.lo = static_cast<double>(in) * grid.square();  // exact: h² has ten digits
+    bounds.lo = static_cast<double>(in) * grid.square();  // exact: h² has ten binary digits
     bounds.hi = static_cast<double>(in + open) * grid.square();
     return bounds;
   }

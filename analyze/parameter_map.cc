@@ -36,7 +36,7 @@ constexpr double kFoldWidth = 1;       // of a box of the curve, in edges of the
 
 const char* const kAnswers[] = {"solutions", "components", "aspects", "assembly-modes", "working-modes"};
 
-// For the control of one of several threads, which ends when the one of all does, of whatever number of boxes.
+// The limits of one of several threads: its run ends when that of all does. Boxes are not limited.
 solve::Control::Limits as_of(const solve::Control& all) {
   const solve::Control::Limits rest = all.rest(0, 0);
   return {.time = rest.time, .stop = rest.stop, .clock = rest.clock};

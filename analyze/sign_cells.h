@@ -40,7 +40,7 @@ struct SignCell : certify::SheetCell {
 class SignCells {
  public:
   /// `functions`: in the system's variables; so are the limits', which follow them in every list of signs. Once `ended` is
-  /// true, of the cells left every sign is open.
+  /// true, the cells that are left are not examined: each of their signs is open.
   SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
             const std::vector<Polynomial>& limits = {}, const Ended& ended = {});
 

@@ -88,7 +88,7 @@ class Control {
   bool ended() const;
   /// Until the limit of time; infinite where there is none.
   double seconds_left() const;
-  /// For what makes a result of all that was found, and takes little time: true once the run has ended so many seconds ago.
+  /// Has the run been over for this long? Until then, what was found may still become a result.
   bool overdue(double seconds = kGrace) const;
   static constexpr double kGrace = 0.2;
   /// The same as ended() for a search, which also ends where it has used up boxes or memory.

@@ -177,7 +177,7 @@ TEST(ParameterMap, LeavesPendingWhatALimitHasLeft) {
   for (const MapCellAnswer& c : map.cells) EXPECT_EQ(c.kind, Kind::pending);
 }
 
-TEST(ParameterMap, SearchesNotForFoldsAfterALimitOfTime) {
+TEST(ParameterMap, SearchesForNoFoldsAfterALimitOfTime) {
   const ParameterMapper mapper({.question = question_of(kCubic), .over = {{"a", "-2", "1"}, {"b", "-1", "1"}}},
                                {.resolution = 128, .boundary = true, .threads = 1, .progress = {}});
   int ended = 0;
