@@ -167,15 +167,17 @@ Eigen::MatrixXd PathSpace::jacobian(const Point& x) const {
 
 bool PathSpace::project(Point& x, double reach) const {
   constexpr int kSteps = 20;
-  constexpr double kSmall = 1e-14;
+  constexpr double kSmall = 1e-14, kFast = 0.1;
   const Point from = x;
   double before = 1e300;
+  Eigen::MatrixXd inverse;  // of a Jacobian before, as long as its steps shrink fast
   for (int step = 0; step < kSteps; ++step) {
-    const Eigen::VectorXd f = residual(x);
-    const Eigen::VectorXd change = least_squares(jacobian(x), -f).x;
+    if (inverse.size() == 0) inverse = pseudo_inverse(jacobian(x));
+    const Eigen::VectorXd change = -inverse * residual(x);
     if (!change.allFinite()) return false;
     x += change;
     const double size = change.lpNorm<Eigen::Infinity>();
+    if (step > 0 && size > kFast * before) inverse.resize(0, 0);
     if (size < kSmall * (1 + x.lpNorm<Eigen::Infinity>())) break;
     if (step > 3 && size < 1e-11 && size >= before / 2) break;
     if (step + 1 == kSteps) return false;

@@ -159,6 +159,8 @@ class PieceCounter {
     }
   }
 
+  static constexpr int kFewestInRow = 4;
+
   // Connected parts of like signs that touch and are not joined yet: points of the one's X_F next to the other, more and
   // more of them.
   void join_touching() {
@@ -168,24 +170,33 @@ class PieceCounter {
         if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected) return;
         const UpwardRounding rounding;
         for (const auto& [from, to] : {std::pair(p, q), std::pair(q, p)})
-          if (proven_.find_set(p) != proven_.find_set(q)) join_next_to(parts_[from].cell, parts_[to].cell, 4 << row);
+          if (proven_.find_set(p) != proven_.find_set(q))
+            join_next_to(parts_[from].cell, parts_[to].cell, kFewestInRow << row);
       });
   }
 
-  // At `count` + 1 points along each free side, those on the other free sides' ends and middles.
+  // At `count` + 1 points along each free side that the cells share, those on the other free sides' ends and middles. Half
+  // of the points were tried with half of the count.
   void join_next_to(std::size_t c, std::size_t d, int count) {
     const SignCell& cell = cells_.cells()[c];
-    const std::vector<int>& frees = cell.free;
     Box near = cell.sides, at = cell.sides;
     if (!intersect(near, cells_.cells()[d].sides)) return;
-    for (const int along : frees)
-      for (int k = 0; k <= count; ++k)
+    std::vector<int> shared;  // where the cells have more in common than a point
+    for (const int f : cell.free)
+      if (near[f].width() > 0) shared.push_back(f);
+    const auto join_over = [&](int along, double share, double others) {
+      for (const int f : cell.free)
+        at[f] =
+            Interval(std::clamp(near[f].lo() + (f == along ? share : others) * near[f].width(), near[f].lo(), near[f].hi()));
+      join_at(cells_.solution_over(cell, at), cell.free);
+    };
+    const bool first = count == kFewestInRow;
+    if (shared.empty() && first) join_over(-1, 0, 0);
+    for (const int along : shared)
+      for (int k = first ? 0 : 1; k <= count; k += first ? 1 : 2)
         for (const double others : {0.0, 0.5, 1.0}) {
-          for (const int f : frees) {
-            const double share = f == along ? static_cast<double>(k) / count : others;
-            at[f] = Interval(std::clamp(near[f].lo() + share * near[f].width(), near[f].lo(), near[f].hi()));
-          }
-          join_at(cells_.solution_over(cell, at), frees);
+          join_over(along, static_cast<double>(k) / count, others);
+          if (shared.size() == 1) break;
         }
   }
 

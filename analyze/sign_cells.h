@@ -74,8 +74,8 @@ class SignCells {
 
   /// The part of a cell's sheet over other free sides, with its ranges.
   SignCell cell_over(const SignCell& cell, Box sides);
-  /// Where the free sides are points of X_F: encloses the sheet's solution over them, as narrow as a few steps make it.
-  Box solution_over(const SignCell& cell, Box sides) { return proof_.solution_over(cell, std::move(sides)); }
+  /// Where the free sides are points of X_F: encloses the sheet's solution over them narrowly.
+  Box solution_over(const SignCell& cell, Box sides) { return proof_.solution_over(cell, region(cell), std::move(sides)); }
   /// The same over the middles of a box's free sides.
   Box solution_over_middle(const SignCell& cell, const Box& box);
   /// Signs ±1 of the functions in the box, in which the solutions are meant; 0 where one is not known.

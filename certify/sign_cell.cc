@@ -1,6 +1,7 @@
 #include "corank/certify/sign_cell.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "corank/certify/inertia.h"
@@ -109,8 +110,39 @@ int SignCellTest::part_of_one(const SheetCell& cell, int sign) {
   return connected(cell, cell.mixed.front(), sign, s.front(), cell.sides, cell.free);
 }
 
-Box SignCellTest::solution_over(const SheetCell& cell, Box sides) {
+bool SignCellTest::chord_steps(const Preconditioner& p, std::vector<double>& point) const {
+  constexpr int kSteps = 5;
+  constexpr double kEnough = 1e-12;  // of a variable's size
+  const int r = p.rank();
+  std::vector<double> value(r);
+  for (int step = 0; step < kSteps; ++step) {
+    for (int b = 0; b < r; ++b) value[b] = compiled_.evaluate_at(p.equations[b], point.data()).mid();
+    double longest = 0;
+    for (int a = 0; a < r; ++a) {
+      double shift = 0;
+      for (int b = 0; b < r; ++b) shift += p.y[a * r + b] * value[b];
+      point[p.dependent[a]] -= shift;
+      longest = std::max(longest, std::fabs(shift) / compiled_.scales()[p.dependent[a]]);
+    }
+    if (longest < kEnough) return true;
+  }
+  return false;
+}
+
+Box SignCellTest::solution_over(const SheetCell& cell, const Box& region, Box sides) {
+  constexpr int kTries = 3;
   constexpr double kNarrow = 1e-11;
+  const std::vector<int> dependent = all_but(cell.free, compiled_.variables());
+  std::vector<double> point = midpoint(sides);
+  for (int k = 0; k < kTries; ++k) {
+    const Preconditioner p = midpoint_preconditioner(compiled_, point, dependent);
+    if (!chord_steps(p, point)) continue;
+    Box about = sides;
+    for (const int d : dependent) about[d] = Interval(point[d]);
+    Sheet sheet = newton_prove(compiled_, p, about, workspace_);
+    if (sheet.proven && contains(region, sheet.image)) return std::move(sheet.image);
+    break;
+  }
   for (int step = 0; step < 5; ++step) {
     tighten_sheet(compiled_, preconditioner(cell.free, sides), sides, workspace_);
     double widest = 0;

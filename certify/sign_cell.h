@@ -70,8 +70,9 @@ class SignCellTest {
   /// Hypothesis of lemma 5, with the level lines of h, or with a constant direction.
   static bool convex_on_levels(const SheetDerivatives& e, const SheetDerivatives& h);
   static bool convex_on_lines(const SheetDerivatives& e, const std::vector<double>& direction);
-  /// Where the free sides are points of X_F: encloses the sheet's solution over them, as narrow as a few steps make it.
-  Box solution_over(const SheetCell& cell, Box sides);
+  /// Where the free sides are points of X_F: encloses the sheet's solution over them narrowly; `region`: the sheet's.
+  /// Theorem: what newton_prove finds there is the sheet's solution if it lies in the region, which holds no other one.
+  Box solution_over(const SheetCell& cell, const Box& region, Box sides);
   /// newton_prove over all of the cell's sides.
   Sheet sheet_over(const SheetCell& cell);
   /// Signs ±1 of the functions in the box; 0 where one is not known.
@@ -83,6 +84,8 @@ class SignCellTest {
   struct Arc;
 
   Preconditioner preconditioner(const std::vector<int>& free, const Box& sides) const;
+  // A few chord steps in doubles towards a zero of the equations; false: they do not end there.
+  bool chord_steps(const Preconditioner& p, std::vector<double>& point) const;
   Interval range(const SheetCell& cell, int function, Box& sides);
   // Lemma 2, from the whole of X_F to its faces. `open`: the free variables that still have their sides.
   int connected(const SheetCell& cell, int function, int sign, const std::vector<Interval>& slope, Box sides,

@@ -18,6 +18,8 @@ LeastSquares least_squares(const MatrixXd& a, const VectorXd& b, double threshol
   return {factors.solve(b), static_cast<int>(factors.rank())};
 }
 
+MatrixXd pseudo_inverse(const MatrixXd& a) { return a.completeOrthogonalDecomposition().pseudoInverse(); }
+
 SingularValueDecomposition decompose(const MatrixXd& a) {
   const Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return {svd.matrixU(), svd.matrixV(), svd.singularValues()};

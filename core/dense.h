@@ -15,6 +15,9 @@ struct LeastSquares {
 /// @param threshold pivots below that share of the largest count as 0; 0: such as rounding leaves
 LeastSquares least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, double threshold = 0);
 
+/// The a⁺ for which a⁺ b is that x, of n × m.
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& a);
+
 /// a = u · diag(values) · vᵀ, u of m × m and v of n × n orthogonal, the values falling (one-sided Jacobi).
 struct SingularValueDecomposition {
   Eigen::MatrixXd u, v;
