@@ -10,7 +10,7 @@
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/certify/angle.h"
-#include "corank/result/result_file.h"
+#include "corank/result/files/result_file.h"
 
 namespace corank::app {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "corank/result/result_file.h"
-#include "corank/result/words.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/words.h"
 
 namespace corank::app {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "corank/app/exit_status.h"
-#include "corank/result/cuik_files.h"
+#include "corank/result/cuik/cuik_files.h"
 
 namespace corank::app {
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "corank/analyze/best_center.h"
-#include "corank/analyze/clearance.h"
-#include "corank/analyze/clearance_map.h"
+#include "corank/analyze/clearance/best_center.h"
+#include "corank/analyze/clearance/clearance.h"
+#include "corank/analyze/clearance/clearance_map.h"
 #include "corank/app/box_files.h"
 #include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
@@ -15,9 +15,9 @@
 #include "corank/app/question.h"
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/heat_map.h"
-#include "corank/result/result_file.h"
-#include "corank/result/words.h"
+#include "corank/report/pictures/heat_map.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {

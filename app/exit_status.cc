@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "corank/result/sentences.h"
-#include "corank/result/words.h"
+#include "corank/result/values/sentences.h"
+#include "corank/result/values/words.h"
 
 namespace corank::app {
 

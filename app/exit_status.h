@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "corank/result/result.h"
-#include "corank/solve/control.h"
+#include "corank/result/values/result.h"
+#include "corank/solve/step/control.h"
 
 namespace corank::app {
 

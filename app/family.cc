@@ -6,7 +6,7 @@
 
 #include "corank/app/exit_status.h"
 #include "corank/core/exact_number.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::app {
 namespace {

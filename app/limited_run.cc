@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "corank/app/exit_status.h"
-#include "corank/result/output_file.h"
-#include "corank/symbolic/ginac_lock.h"
+#include "corank/result/files/output_file.h"
+#include "corank/symbolic/algebra/ginac_lock.h"
 
 namespace corank::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "corank/app/watch.h"
-#include "corank/solve/control.h"
+#include "corank/solve/step/control.h"
 
 namespace corank::app {
 

@@ -1,5 +1,5 @@
 // corank path: a way between two configurations without a singularity, as a tube that is proven.
-#include "corank/analyze/path.h"
+#include "corank/analyze/paths/path.h"
 
 #include <fmt/format.h>
 
@@ -15,11 +15,11 @@
 #include "corank/app/set_search.h"
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/path_page.h"
-#include "corank/report/set_look.h"
-#include "corank/result/claim_files.h"
-#include "corank/result/result_file.h"
-#include "corank/result/words.h"
+#include "corank/report/html/path_page.h"
+#include "corank/report/pictures/set_look.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/claim_files.h"
+#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {

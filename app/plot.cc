@@ -11,9 +11,9 @@
 #include "corank/app/limited_run.h"
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/picture.h"
-#include "corank/report/portrait.h"
-#include "corank/result/result_file.h"
+#include "corank/report/pictures/picture.h"
+#include "corank/report/pictures/portrait.h"
+#include "corank/result/files/result_file.h"
 
 namespace corank::app {
 namespace {

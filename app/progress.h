@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "corank/solve/control.h"
+#include "corank/solve/step/control.h"
 
 namespace corank::app {
 

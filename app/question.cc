@@ -4,9 +4,9 @@
 
 #include "corank/app/exit_status.h"
 #include "corank/app/shared_options.h"
-#include "corank/result/words.h"
+#include "corank/result/values/words.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/cusps_and_nodes.h"
+#include "corank/symbolic/sets/cusps_and_nodes.h"
 
 namespace corank::app {
 

@@ -15,14 +15,14 @@
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
-#include "corank/report/figures.h"
-#include "corank/report/page.h"
-#include "corank/result/result_file.h"
-#include "corank/result/sentences.h"
-#include "corank/result/verification.h"
-#include "corank/result/words.h"
+#include "corank/report/html/page.h"
+#include "corank/report/pictures/figures.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/sentences.h"
+#include "corank/result/values/words.h"
 #include "corank/study/answer.h"
-#include "corank/symbolic/printer.h"
+#include "corank/symbolic/writing/printer.h"
 
 namespace corank::app {
 namespace {

@@ -14,10 +14,10 @@
 #include "corank/app/limited_run.h"
 #include "corank/app/subcommands.h"
 #include "corank/core/check.h"
-#include "corank/result/result_file.h"
-#include "corank/result/words.h"
-#include "corank/solve/options.h"
-#include "corank/symbolic/model_error.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/words.h"
+#include "corank/solve/step/options.h"
+#include "corank/symbolic/model/model_error.h"
 
 namespace corank::app {
 namespace {

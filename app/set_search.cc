@@ -8,8 +8,8 @@
 #include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
 #include "corank/app/watch.h"
-#include "corank/report/page.h"
-#include "corank/result/verification.h"
+#include "corank/report/html/page.h"
+#include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
 
 namespace corank::app {

@@ -3,8 +3,8 @@
 
 #include "corank/app/question.h"
 #include "corank/app/shared_options.h"
-#include "corank/report/set_view.h"
-#include "corank/solve/solve.h"
+#include "corank/report/html/set_view.h"
+#include "corank/solve/search/solve.h"
 
 namespace corank::app {
 

@@ -4,9 +4,9 @@
 
 #include "corank/app/box_files.h"
 #include "corank/app/exit_status.h"
-#include "corank/result/result_file.h"
-#include "corank/solve/memory.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/result/files/result_file.h"
+#include "corank/solve/store/memory.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::app {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "corank/analyze/ball.h"
-#include "corank/solve/options.h"
+#include "corank/analyze/clearance/ball.h"
+#include "corank/solve/step/options.h"
 
 namespace corank::app {
 

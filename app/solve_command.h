@@ -8,7 +8,7 @@
 
 #include "corank/app/question.h"
 #include "corank/app/shared_options.h"
-#include "corank/result/checkpoint.h"
+#include "corank/result/files/checkpoint.h"
 
 namespace corank::app {
 

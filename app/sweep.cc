@@ -14,16 +14,16 @@
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
-#include "corank/report/family_page.h"
-#include "corank/report/figures.h"
-#include "corank/report/page.h"
-#include "corank/report/page_words.h"
-#include "corank/result/result_file.h"
+#include "corank/report/html/family_page.h"
+#include "corank/report/html/page.h"
+#include "corank/report/html/page_words.h"
+#include "corank/report/pictures/figures.h"
+#include "corank/result/files/result_file.h"
 #include "corank/study/answer.h"
 #include "corank/study/early_searches.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_error.h"
+#include "corank/symbolic/model/model_error.h"
+#include "corank/symbolic/sets/algebrizer.h"
 
 namespace corank::app {
 namespace {

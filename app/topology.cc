@@ -1,5 +1,5 @@
 // corank topology: the shape of a C-space, or of the solutions of a plain system.
-#include "corank/analyze/topology.h"
+#include "corank/analyze/topology/topology.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,9 @@
 #include "corank/app/question.h"
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/result/claim_files.h"
-#include "corank/result/result_file.h"
-#include "corank/result/words.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/claim_files.h"
+#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {

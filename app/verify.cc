@@ -14,10 +14,10 @@
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/app/watch.h"
-#include "corank/result/claim_files.h"
-#include "corank/result/result_file.h"
-#include "corank/result/verification.h"
-#include "corank/result/words.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/claim_files.h"
+#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {

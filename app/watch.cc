@@ -4,7 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 
-#include "corank/result/output_file.h"
+#include "corank/result/files/output_file.h"
 
 namespace corank::app {
 namespace {

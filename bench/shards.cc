@@ -16,8 +16,8 @@
 #include <queue>
 #include <vector>
 
-#include "corank/solve/cluster.h"
-#include "corank/solve/shard_bytes.h"
+#include "corank/solve/distribution/cluster.h"
+#include "corank/solve/store/shard_bytes.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
 

@@ -9,10 +9,10 @@
 //   n, m        variables and equations
 //   kLU         elapsed time in thousands of LU units
 //   overhead    elapsed time ÷ (returned boxes × mean time of one certified test): what all of the search costs, in proofs
-//   of
-//               each box that it returns. One certified test is the choice of Y at a box's middle for the box's own free
-//               variables (solve/preconditioner.h) and certify::newton_prove. Its mean time is measured here, on the reduced
-//               system and up to kSamples of its proven boxes, evenly spaced in the sorted result, kRepeats times each.
+//               of each box that it returns. One certified test is the choice of Y at a box's middle for the box's own free
+//               variables (solve/step/preconditioner.h) and certify::newton_prove. Its mean time is measured here, on
+//               the reduced system and up to kSamples of its proven boxes, evenly spaced in the sorted result, kRepeats
+//               times each.
 //               Pending boxes do not count. With several threads the elapsed time shrinks, and the factor with it.
 //   /proto      kLU ÷ that of a one-thread prototype of the same algorithm (150 lines, nothing tuned)
 //   CUIK        the CUIK suite's boxes and time on the same problem at the same σ (Clp, one core), where they are known, and
@@ -31,14 +31,14 @@
 #include "corank/bench/lu_unit.h"
 #include "corank/certify/newton.h"
 #include "corank/core/rounding.h"
-#include "corank/result/cuik_files.h"
-#include "corank/solve/preconditioner.h"
-#include "corank/solve/reducer.h"
-#include "corank/solve/solve.h"
+#include "corank/result/cuik/cuik_files.h"
+#include "corank/solve/reduction/reducer.h"
+#include "corank/solve/search/solve.h"
+#include "corank/solve/step/preconditioner.h"
 #include "corank/study/question.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_error.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_error.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 
 namespace {
 

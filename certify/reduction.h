@@ -1,4 +1,4 @@
-// Exact rewriting of a system before it is solved, and the way back. solve/reducer.h chooses the steps.
+// Exact rewriting of a system before it is solved, and the way back. solve/reduction/reducer.h chooses the steps.
 //
 // Variables that an equation defines are eliminated, equations that then hold identically or repeat another are dropped:
 //   (a) a·x + b = 0 and a·x + b·y + c = 0 with rational a, b ≠ 0: x is replaced everywhere by its value;
@@ -51,7 +51,7 @@ struct Reduction {
 
 /// A system to which steps are applied one by one. Every step is checked: the hypotheses of the theorem are on the lines
 /// that do so, and a step that is not legal is a broken invariant. Which steps to take is not decided here
-/// (solve/reducer.h). Every change requires UpwardRounding::active().
+/// (solve/reduction/reducer.h). Every change requires UpwardRounding::active().
 class Rewriting {
  public:
   /// `tolerant`: enclosures carry the coefficient tolerance; else all is about the exact coefficients.

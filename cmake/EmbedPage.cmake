@@ -30,7 +30,7 @@ join(script "${MODULES}")
 join(family_script "${FAMILY_MODULES}")
 join(path_script "${PATH_MODULES}")
 
-set(source "// Made by cmake/EmbedPage.cmake.\n#include \"corank/report/page_assets.h\"\n\nnamespace corank::report {\n\n")
+set(source "// Made by cmake/EmbedPage.cmake.\n#include \"corank/report/html/page_assets.h\"\n\nnamespace corank::report {\n\n")
 foreach(item template:kPageTemplate style:kPageStyle script:kPageScript card:kCardTemplate family:kFamilyTemplate
              family_style:kFamilyStyle family_script:kFamilyScript path:kPathTemplate path_style:kPathStyle path_script:kPathScript three:kThree)
   string(REPLACE ":" ";" item "${item}")

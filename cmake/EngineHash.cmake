@@ -1,7 +1,7 @@
 # Writes OUT: the hash of the sources in the folders of SOURCE_DIR that decide what a search does.
 set(all "")
 foreach(folder core certify solve)
-  file(GLOB files ${SOURCE_DIR}/${folder}/*.cc ${SOURCE_DIR}/${folder}/*.h)
+  file(GLOB_RECURSE files ${SOURCE_DIR}/${folder}/*.cc ${SOURCE_DIR}/${folder}/*.h)
   list(SORT files)
   foreach(file IN LISTS files)
     file(SHA256 ${file} hash)

@@ -21,7 +21,7 @@ struct SheetBridge {
   Box region;
 };
 
-/// The critical points of one height (symbolic/critical_points.h).
+/// The critical points of one height (symbolic/sets/critical_points.h).
 struct HeightCover {
   int height = 0;
   Cover cover;

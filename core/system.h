@@ -71,8 +71,8 @@ struct System {
   int kernel_vectors = 1;
   /// by which number each column of M was multiplied, as exact text; none: all are 1
   std::vector<std::string> kernel_scales;
-  /// M is one whose passive rates were eliminated where that can be done (symbolic/passive_rates.h): some of its rows give
-  /// such a rate, and the normalization of the ξʲ is without them.
+  /// M is one whose passive rates were eliminated where that can be done (symbolic/velocity/passive_rates.h): some of its
+  /// rows give such a rate, and the normalization of the ξʲ is without them.
   bool passive_rates_eliminated = false;
   /// Of a part of a workspace boundary: what decides whether the output can pass.
   std::optional<PassageForm> passage;

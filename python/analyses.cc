@@ -2,17 +2,17 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "corank/analyze/area_by_boundary.h"
-#include "corank/analyze/aspects.h"
-#include "corank/analyze/best_center.h"
-#include "corank/analyze/clearance.h"
-#include "corank/analyze/clearance_map.h"
-#include "corank/analyze/path.h"
-#include "corank/analyze/topology.h"
+#include "corank/analyze/aspects/aspects.h"
+#include "corank/analyze/clearance/best_center.h"
+#include "corank/analyze/clearance/clearance.h"
+#include "corank/analyze/clearance/clearance_map.h"
+#include "corank/analyze/maps/area_by_boundary.h"
+#include "corank/analyze/paths/path.h"
+#include "corank/analyze/topology/topology.h"
 #include "corank/python/bindings.h"
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
-#include "corank/result/claim_files.h"
+#include "corank/result/values/claim_files.h"
 
 namespace corank::python {
 namespace {

@@ -7,8 +7,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "corank/result/checkpoint.h"
-#include "corank/solve/shard_bytes.h"
+#include "corank/result/files/checkpoint.h"
+#include "corank/solve/store/shard_bytes.h"
 #include "corank/study/spread_run.h"
 
 namespace corank::python {

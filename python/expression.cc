@@ -3,8 +3,8 @@
 #include <pybind11/stl.h>
 
 #include "corank/python/bindings.h"
-#include "corank/symbolic/expression.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/expression.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::python {
 namespace {

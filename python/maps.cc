@@ -1,7 +1,7 @@
 // Numbers over planes of two parameters: whole maps, and their tiles one by one, for the workers of a cluster.
 #include <stdexcept>
 
-#include "corank/analyze/parameter_map.h"
+#include "corank/analyze/maps/parameter_map.h"
 #include "corank/python/bindings.h"
 #include "corank/python/watched.h"
 

@@ -3,13 +3,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "corank/python/bindings.h"
-#include "corank/report/figures.h"
-#include "corank/report/set_look.h"
+#include "corank/report/pictures/figures.h"
+#include "corank/report/pictures/set_look.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
-#include "corank/symbolic/cusps_and_nodes.h"
-#include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/printer.h"
+#include "corank/symbolic/model/evaluate.h"
+#include "corank/symbolic/sets/cusps_and_nodes.h"
+#include "corank/symbolic/writing/printer.h"
 
 namespace corank::python {
 namespace {

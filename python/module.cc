@@ -1,13 +1,13 @@
 // The extension module corank._corank: thin functions over study/, result/, analyze/ and report/. What users see is made of
 // them in corank/*.py.
-#include "corank/analyze/path.h"
+#include "corank/analyze/paths/path.h"
 #include "corank/python/bindings.h"
 #include "corank/python/watched.h"
-#include "corank/result/cuik_files.h"
-#include "corank/result/hdf5_file.h"
-#include "corank/result/result.h"
-#include "corank/solve/options.h"
-#include "corank/symbolic/model_error.h"
+#include "corank/result/cuik/cuik_files.h"
+#include "corank/result/files/hdf5_file.h"
+#include "corank/result/values/result.h"
+#include "corank/solve/step/options.h"
+#include "corank/symbolic/model/model_error.h"
 
 namespace corank::python {
 namespace {

@@ -8,13 +8,13 @@
 #include "corank/python/bindings.h"
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
-#include "corank/report/family_page.h"
-#include "corank/report/figures.h"
-#include "corank/report/page.h"
-#include "corank/report/path_page.h"
-#include "corank/report/picture.h"
-#include "corank/report/portrait.h"
-#include "corank/result/verification.h"
+#include "corank/report/html/family_page.h"
+#include "corank/report/html/page.h"
+#include "corank/report/html/path_page.h"
+#include "corank/report/pictures/figures.h"
+#include "corank/report/pictures/picture.h"
+#include "corank/report/pictures/portrait.h"
+#include "corank/result/files/verification.h"
 
 namespace corank::python {
 namespace {

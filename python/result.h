@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "corank/report/path_page.h"
-#include "corank/result/result.h"
+#include "corank/report/html/path_page.h"
+#include "corank/result/values/result.h"
 
 namespace corank::python {
 

@@ -5,10 +5,10 @@
 
 #include <pybind11/stl.h>
 
-#include "corank/solve/memory.h"
+#include "corank/solve/store/memory.h"
 #include "corank/study/answer.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/printer.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/writing/printer.h"
 
 namespace corank::python {
 namespace {

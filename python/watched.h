@@ -16,8 +16,8 @@
 #include <string>
 #include <type_traits>
 
-#include "corank/result/verification.h"
-#include "corank/solve/control.h"
+#include "corank/result/files/verification.h"
+#include "corank/solve/step/control.h"
 
 namespace corank::python {
 

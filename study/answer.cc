@@ -7,15 +7,15 @@
 #include "corank/certify/kernel_bound.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
-#include "corank/result/sentences.h"
-#include "corank/solve/box_labels.h"
-#include "corank/solve/corank_system.h"
-#include "corank/solve/exactness.h"
+#include "corank/result/values/sentences.h"
+#include "corank/solve/exactness/corank_system.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/box_labels.h"
 #include "corank/study/run_journal.h"
 #include "corank/study/search_steps.h"
-#include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/printer.h"
-#include "corank/symbolic/velocity_blocks.h"
+#include "corank/symbolic/model/evaluate.h"
+#include "corank/symbolic/sets/velocity_blocks.h"
+#include "corank/symbolic/writing/printer.h"
 
 namespace corank::study {
 namespace {

@@ -2,8 +2,8 @@
 // C++ users do.
 #pragma once
 
-#include "corank/result/result.h"
-#include "corank/solve/solve.h"
+#include "corank/result/values/result.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/question.h"
 
 namespace corank::study {

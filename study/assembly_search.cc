@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "corank/solve/solve.h"
-#include "corank/symbolic/set_definition.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/set_definition.h"
 
 namespace corank::study {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/solve/estimate.h"
+#include "corank/solve/search/estimate.h"
 #include "corank/study/question.h"
 
 namespace corank::study {

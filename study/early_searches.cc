@@ -5,7 +5,7 @@
 #include <system_error>
 #include <utility>
 
-#include "corank/symbolic/set_definition.h"
+#include "corank/symbolic/model/set_definition.h"
 
 namespace corank::study {
 namespace {

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "corank/kinematics/part_file.h"
-#include "corank/kinematics/urdf.h"
-#include "corank/solve/reducer.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/kinematics/urdf/urdf.h"
+#include "corank/solve/reduction/reducer.h"
+#include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/singularity_system.h"
+#include "corank/symbolic/writing/printer.h"
 
 namespace corank::study {
 namespace {

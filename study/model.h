@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "corank/kinematics/assembly.h"
-#include "corank/result/result.h"
+#include "corank/kinematics/equations/assembly.h"
+#include "corank/result/values/result.h"
 
 namespace corank::study {
 

@@ -2,9 +2,9 @@
 
 #include "corank/certify/pairs.h"
 #include "corank/core/check.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/cusps_and_nodes.h"
-#include "corank/symbolic/kernel_scale.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/cusps_and_nodes.h"
+#include "corank/symbolic/sets/kernel_scale.h"
 
 namespace corank::study {
 namespace {

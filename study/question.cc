@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "corank/core/check.h"
-#include "corank/solve/implied_equations.h"
-#include "corank/solve/propagation.h"
-#include "corank/solve/reducer.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
+#include "corank/solve/reduction/implied_equations.h"
+#include "corank/solve/reduction/reducer.h"
+#include "corank/solve/search/solve.h"
+#include "corank/solve/step/propagation.h"
+#include "corank/symbolic/sets/algebrizer.h"
 
 namespace corank::study {
 

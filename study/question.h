@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "corank/core/system.h"
-#include "corank/kinematics/assembly.h"
-#include "corank/result/result.h"
-#include "corank/solve/control.h"
-#include "corank/symbolic/set_parts.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/kinematics/equations/assembly.h"
+#include "corank/result/values/result.h"
+#include "corank/solve/step/control.h"
+#include "corank/symbolic/sets/set_parts.h"
+#include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::study {
 
@@ -27,7 +27,7 @@ struct Question {
   std::optional<double> tolerance{};  ///< of coefficients, relative; nothing: printed_tolerance() of a plain system, else 0
 };
 
-/// Of a set that is solved in parts the question about each of them (symbolic/set_parts.h); of another set the question
+/// Of a set that is solved in parts the question about each of them (symbolic/sets/set_parts.h); of another set the question
 /// itself. A union, or a hypersurface among an arm's joints, is solved so where it has dimension 2 or more, or the robot has
 /// written-out parallelograms, along whose flat positions parts coincide; where it is asked for without a kernel's side or
 /// corank, and `in_parts` does not say otherwise. So is a curve or points where the kernel vector would have ten unknowns or
@@ -35,7 +35,7 @@ struct Question {
 /// Throws symbolic::ModelError. `ended`: as decompose().
 std::vector<Question> parts_of(const Question& question, const Ended& ended = {});
 
-/// The equations of the set, its kernel vectors scaled (symbolic/kernel_scale.h); of a set of parts those of
+/// The equations of the set, its kernel vectors scaled (symbolic/sets/kernel_scale.h); of a set of parts those of
 /// question.part. Throws symbolic::ModelError.
 symbolic::TrigonometricSystem equations(const Question& question);
 

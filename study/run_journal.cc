@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "corank/solve/shard_bytes.h"
+#include "corank/solve/store/shard_bytes.h"
 
 namespace corank::study {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "corank/result/checkpoint.h"
-#include "corank/solve/journal.h"
+#include "corank/result/files/checkpoint.h"
+#include "corank/solve/store/journal.h"
 
 namespace corank::study {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "corank/solve/control.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
+#include "corank/solve/step/control.h"
 #include "corank/study/answer.h"
 #include "corank/study/question.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "corank/core/check.h"
-#include "corank/solve/shard_bytes.h"
+#include "corank/solve/store/shard_bytes.h"
 #include "corank/study/run_journal.h"
 
 namespace corank::study {

@@ -1,5 +1,5 @@
-// A run whose searches are cut into units (solve/cluster.h) that somebody else gets done, wherever: what study::answer does
-// with its own threads.
+// A run whose searches are cut into units (solve/distribution/cluster.h) that somebody else gets done, wherever: what
+// study::answer does with its own threads.
 //
 //   SpreadRun run(question, options, &stop);
 //   while (run.finished() < run.searches()) {
@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "corank/result/checkpoint.h"
-#include "corank/solve/cluster.h"
+#include "corank/result/files/checkpoint.h"
+#include "corank/solve/distribution/cluster.h"
 #include "corank/study/answer.h"
 #include "corank/study/search_steps.h"
 

@@ -1,6 +1,6 @@
 // In which aspects cusps let a mechanism change its posture or its assembly mode: against the three configurations next
 // to each cusp that Newton's method finds in doubles, and on planted maps.
-#include "corank/analyze/aspect_cusps.h"
+#include "corank/analyze/aspects/aspect_cusps.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "corank/analyze/aspects.h"
+#include "corank/analyze/aspects/aspects.h"
 #include "corank/study/model.h"
 
 namespace corank::analyze {

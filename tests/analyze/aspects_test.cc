@@ -1,5 +1,5 @@
 // Pieces between singularities, counted by hand or by the geometry of the mechanism.
-#include "corank/analyze/aspects.h"
+#include "corank/analyze/aspects/aspects.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 #include "corank/certify/angle.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::analyze {
 namespace {

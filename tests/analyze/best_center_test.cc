@@ -1,5 +1,5 @@
 // Balls of best centres and maps against distances in closed form.
-#include "corank/analyze/best_center.h"
+#include "corank/analyze/clearance/best_center.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <random>
 
-#include "corank/analyze/clearance_map.h"
+#include "corank/analyze/clearance/clearance_map.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/analyze/exact.h"
 
 namespace corank::analyze {

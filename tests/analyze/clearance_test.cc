@@ -1,5 +1,5 @@
 // Clearances of robots against singular configurations that are found otherwise: by closed forms, and along many rays.
-#include "corank/analyze/clearance.h"
+#include "corank/analyze/clearance/clearance.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <random>
 #include <regex>
 
-#include "corank/result/verification.h"
+#include "corank/result/files/verification.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::analyze {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <random>
 
-#include "corank/result/hdf5_file.h"
-#include "corank/symbolic/model_error.h"
+#include "corank/result/files/hdf5_file.h"
+#include "corank/symbolic/model/model_error.h"
 #include "corank/tests/analyze/map_files.h"
 
 namespace corank::analyze {

@@ -1,8 +1,8 @@
 // Doubles as constants of a question, exactly, for tests.
 #pragma once
 
-#include "corank/symbolic/expression.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/expression.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::analyze {
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "corank/analyze/aspects.h"
-#include "corank/analyze/topology.h"
-#include "corank/result/claim_files.h"
+#include "corank/analyze/aspects/aspects.h"
+#include "corank/analyze/topology/topology.h"
+#include "corank/result/values/claim_files.h"
 #include "corank/study/model.h"
 #include "corank/tests/analyze/map_files.h"
 

@@ -1,6 +1,6 @@
 // A file of a map: what is written is read and verified; what is changed is found out.
-#include "corank/result/claim_files.h"
-#include "corank/result/hdf5_file.h"
+#include "corank/result/files/hdf5_file.h"
+#include "corank/result/values/claim_files.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

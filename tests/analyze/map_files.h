@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "corank/analyze/parameter_map.h"
+#include "corank/analyze/maps/parameter_map.h"
 #include "corank/study/model.h"
 
 namespace corank::analyze {

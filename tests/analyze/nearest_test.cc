@@ -1,14 +1,14 @@
 // Distances of sets from centres where they are known.
-#include "corank/analyze/nearest.h"
+#include "corank/analyze/sets/nearest.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "corank/analyze/clearance.h"
-#include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/analyze/clearance/clearance.h"
+#include "corank/symbolic/model/evaluate.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/analyze/exact.h"
 
 namespace corank::analyze {

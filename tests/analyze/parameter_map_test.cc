@@ -1,5 +1,5 @@
 // Numbers of solutions over planes of parameters, against closed forms and against searches at single values.
-#include "corank/analyze/parameter_map.h"
+#include "corank/analyze/maps/parameter_map.h"
 
 #include <gtest/gtest.h>
 

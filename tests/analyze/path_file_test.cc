@@ -1,15 +1,15 @@
 // A path's file: what is written is read and verified; whatever is changed in it is found out.
-#include "corank/result/claim_files.h"
-#include "corank/result/hdf5_file.h"
+#include "corank/result/files/hdf5_file.h"
+#include "corank/result/values/claim_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "corank/analyze/path.h"
+#include "corank/analyze/paths/path.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::analyze {
 namespace {

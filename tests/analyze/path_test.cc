@@ -1,6 +1,6 @@
 // Paths between random configurations: each tube is checked by the checker and by samples of its lift, each separation by
 // an independent flood of samples.
-#include "corank/analyze/path.h"
+#include "corank/analyze/paths/path.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 #include <set>
 #include <sstream>
 
-#include "corank/analyze/path_space.h"
-#include "corank/analyze/tube_builder.h"
+#include "corank/analyze/paths/path_space.h"
+#include "corank/analyze/paths/tube_builder.h"
 #include "corank/check/tube.h"
 #include "corank/study/model.h"
 #include "corank/tests/analyze/random_pairs.h"

@@ -1,13 +1,13 @@
 // In which aspect the boxes of another cover lie.
-#include "corank/analyze/pieces.h"
+#include "corank/analyze/pieces/pieces.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
 
-#include "corank/analyze/aspects.h"
-#include "corank/solve/solve.h"
+#include "corank/analyze/aspects/aspects.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/model.h"
 
 namespace corank::analyze {

@@ -1,6 +1,6 @@
 // A file of aspects and modes: what is written is read and verified; what is changed is found out.
-#include "corank/result/claim_files.h"
-#include "corank/result/hdf5_file.h"
+#include "corank/result/files/hdf5_file.h"
+#include "corank/result/values/claim_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <map>
 #include <random>
 
-#include "corank/analyze/aspects.h"
+#include "corank/analyze/aspects/aspects.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/seeds.h"
 
 namespace corank::analyze {

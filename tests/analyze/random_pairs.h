@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "corank/analyze/path.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/analyze/paths/path.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::analyze {
 

@@ -1,7 +1,7 @@
 // A shape's file: what is written is read and verified; whatever is changed in it is found out, or the counts that are
 // left are true all the same.
-#include "corank/result/claim_files.h"
-#include "corank/result/hdf5_file.h"
+#include "corank/result/files/hdf5_file.h"
+#include "corank/result/values/claim_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 #include <map>
 #include <random>
 
-#include "corank/analyze/topology.h"
+#include "corank/analyze/topology/topology.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/seeds.h"
 
 namespace corank::analyze {

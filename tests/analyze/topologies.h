@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "corank/analyze/topology.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/analyze/topology/topology.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::analyze {
 

@@ -1,5 +1,5 @@
 // Shapes that are known: quadrics and tori, linkages whose C-spaces are in the literature.
-#include "corank/analyze/topology.h"
+#include "corank/analyze/topology/topology.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <random>
 
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/analyze/topologies.h"
 
 namespace corank::analyze {

@@ -12,9 +12,9 @@
 #include <random>
 #include <set>
 
-#include "corank/analyze/topology.h"
+#include "corank/analyze/topology/topology.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/analyze/topologies.h"
 
 namespace corank::analyze {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "corank/result/result_file.h"
+#include "corank/result/files/result_file.h"
 #include "corank/tests/app/program.h"
 #include "corank/tests/models/given_rates.h"
 

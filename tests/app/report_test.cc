@@ -5,8 +5,8 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
-#include "corank/report/box_payload.h"
-#include "corank/result/result_file.h"
+#include "corank/report/pictures/box_payload.h"
+#include "corank/result/files/result_file.h"
 #include "corank/tests/app/program.h"
 #include "corank/tests/report/page_text.h"
 

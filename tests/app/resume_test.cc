@@ -14,9 +14,9 @@
 #include <fstream>
 #include <random>
 
-#include "corank/result/checkpoint.h"
-#include "corank/result/result_file.h"
-#include "corank/solve/shard_bytes.h"
+#include "corank/result/files/checkpoint.h"
+#include "corank/result/files/result_file.h"
+#include "corank/solve/store/shard_bytes.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "corank/result/result_file.h"
+#include "corank/result/files/result_file.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {

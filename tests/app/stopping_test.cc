@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "corank/report/figures.h"
-#include "corank/result/result_file.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/report/pictures/figures.h"
+#include "corank/result/files/result_file.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/singularity_system.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "corank/report/box_payload.h"
-#include "corank/report/components.h"
-#include "corank/result/result_file.h"
+#include "corank/report/pictures/box_payload.h"
+#include "corank/report/pictures/components.h"
+#include "corank/result/files/result_file.h"
 #include "corank/tests/app/program.h"
 #include "corank/tests/report/page_text.h"
 

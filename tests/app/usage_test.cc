@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "corank/result/result.h"
+#include "corank/result/values/result.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {

@@ -15,13 +15,16 @@ using Arrows = std::map<std::string, std::set<std::string>>;
 Arrows read_arrows() {
   std::ifstream list(CORANK_SOURCE_DIR "/cmake/folders.txt");
   Arrows arrows;
-  static const std::regex entry("^([a-z]+):(.*)$");
+  static const std::regex entry("^(([a-z]+/)?[a-z]+):([^#]*)(# .+)?$");
   for (std::string line; std::getline(list, line);) {
     std::smatch match;
     if (!std::regex_match(line, match, entry)) continue;
-    std::istringstream names(match[2].str());
+    if (match[2].matched != match[4].matched)
+      throw std::runtime_error("cmake/folders.txt: an inner folder has a sentence, another one has none: " + line);
+    std::istringstream names(match[3].str());
     std::set<std::string>& used = arrows[match[1]];
     for (std::string name; names >> name;) {
+      name = match[2].str() + name;
       // Those above it only: no cycle.
       if (!arrows.contains(name))
         throw std::runtime_error("cmake/folders.txt: " + match[1].str() + " names " + name + " before it stands there");
@@ -31,7 +34,7 @@ Arrows read_arrows() {
   return arrows;
 }
 
-// A folder may include itself and these.
+// A folder may include itself and these. An inner folder, "solve/step", stands with the inner ones beside it.
 const Arrows& arrows_of_house() {
   static const Arrows arrows = read_arrows();
   return arrows;
@@ -72,6 +75,14 @@ const std::vector<LibraryRule>& library_rules() {
 }
 
 std::string first_folder(const std::string& path) { return path.substr(0, path.find('/')); }
+
+// "solve/step" of "solve/step/options.h"; "solve" of a file beside the inner folders.
+std::string inner_folder(const std::string& path) { return path.substr(0, path.rfind('/')); }
+
+bool has_inner_folders(const std::string& folder) {
+  const auto after = arrows_of_house().lower_bound(folder + "/");
+  return after != arrows_of_house().end() && after->first.starts_with(folder + "/");
+}
 
 template <typename Visit>
 void for_each_line(const std::string& text, const Visit& visit) {
@@ -119,7 +130,8 @@ void check_links(const std::string& folder, const std::string& text, Findings& f
 
 std::vector<std::string> folders() {
   std::vector<std::string> names;
-  for (const auto& [folder, used] : arrows_of_house()) names.push_back(folder);
+  for (const auto& [folder, used] : arrows_of_house())
+    if (folder.find('/') == std::string::npos) names.push_back(folder);
   return names;
 }
 
@@ -133,7 +145,9 @@ std::set<std::pair<std::string, std::string>> arrows() {
 std::set<std::string> included_folders(const std::string& text) {
   std::set<std::string> included;
   for_each_include(text, [&](const std::string& header, bool, int) {
-    if (header.starts_with("corank/")) included.insert(first_folder(header.substr(7)));
+    if (!header.starts_with("corank/")) return;
+    included.insert(first_folder(header.substr(7)));
+    included.insert(inner_folder(header.substr(7)));
   });
   return included;
 }
@@ -147,6 +161,9 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
     check_links(folder, text, findings);
     return findings.take();
   }
+  const auto inner = arrows_of_house().find(inner_folder(path));
+  if (has_inner_folders(folder) && (inner == arrows_of_house().end() || inner->first == folder))
+    findings.add(1, "not in an inner folder of cmake/folders.txt");
   const std::string tested = is_test ? first_folder(path.substr(path.find('/') + 1)) : "";
   const auto arrows = arrows_of_house().find(folder);
   for_each_include(text, [&](const std::string& header, bool quoted, int line) {
@@ -157,6 +174,10 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
       const std::string target = first_folder(header.substr(7));
       if (arrows != arrows_of_house().end() && target != folder && !arrows->second.contains(target)) {
         findings.add(line, folder + " may not include " + target);
+      } else if (const std::string beside = inner_folder(header.substr(7));
+                 target == folder && inner != arrows_of_house().end() && beside != inner->first &&
+                 !inner->second.contains(beside)) {
+        findings.add(line, inner->first + " may not include " + beside);
       } else if (folder == kChecker && kNotForTheChecker.contains(header.substr(7))) {
         findings.add(line, folder + " may include plain values only, not " + header);
       }

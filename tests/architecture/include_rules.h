@@ -16,7 +16,7 @@ std::set<std::pair<std::string, std::string>> arrows();
 std::set<std::string> included_folders(const std::string& text);
 
 /// What is wrong with a source file or a CMakeLists.txt, one line each: "<path>:<line>: <problem>". `path` is relative to
-/// the root of the repository, "solve/solve.h".
+/// the root of the repository, "solve/search/solve.h".
 std::vector<std::string> violations(const std::string& path, const std::string& text);
 
 /// The same for a header that users of the installed package include: it may show nothing but the standard library and

@@ -10,8 +10,8 @@
 #include "corank/certify/projection.h"
 #include "corank/core/cover.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/preconditioner.h"
-#include "corank/solve/reducer.h"
+#include "corank/solve/reduction/reducer.h"
+#include "corank/solve/step/preconditioner.h"
 
 namespace corank::check {
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <set>
 
-#include "corank/result/cuik_files.h"
-#include "corank/result/result_file.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_error.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/result/cuik/cuik_files.h"
+#include "corank/result/files/result_file.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_error.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/cover_lookup.h"
 #include "corank/tests/cuik/shell.h"
 #include "corank/tests/cuik/suite_files.h"

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "corank/result/cuik_files.h"
+#include "corank/result/cuik/cuik_files.h"
 #include "corank/tests/cuik/shell.h"
 #include "corank/tests/cuik/suite_files.h"
 

@@ -7,10 +7,10 @@
 #include <array>
 #include <numbers>
 
-#include "corank/result/cuik_files.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/result/cuik/cuik_files.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/cuik/shell.h"
 
 namespace corank::cuik {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "corank/result/cuik_files.h"
+#include "corank/result/cuik/cuik_files.h"
 
 namespace {
 

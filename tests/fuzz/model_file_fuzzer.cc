@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "corank/kinematics/part_file.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Any bytes may come as a result file. An input that begins as HDF5 does is read as a file, in a child process, of which the
-// fuzzer sees only what comes back; any other one is taken for what came back (result/plain_items.h), the part of reading
-// that is compiled for the fuzzer. Either a result is returned, which is as result_file.h promises, or ResultFileError is
-// thrown with a printable line.
+// fuzzer sees only what comes back; any other one is taken for what came back (result/files/plain_items.h), the part of
+// reading that is compiled for the fuzzer. Either a result is returned, which is as result_file.h promises, or
+// ResultFileError is thrown with a printable line.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "corank/result/result_file.h"
-#include "corank/result/words.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/words.h"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "corank/kinematics/urdf.h"
-#include "corank/symbolic/expression_words.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/kinematics/urdf/urdf.h"
+#include "corank/symbolic/model/expression_words.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace {
 

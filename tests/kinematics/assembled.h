@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "corank/kinematics/assembly.h"
-#include "corank/kinematics/part_file.h"
-#include "corank/symbolic/evaluate.h"
+#include "corank/kinematics/equations/assembly.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/symbolic/model/evaluate.h"
 #include "corank/tests/kinematics/transform.h"
 
 namespace corank::kinematics {

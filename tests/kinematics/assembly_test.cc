@@ -1,15 +1,15 @@
 // From parts to equations: which class a robot is of, what its equations are, what can't be assembled.
-#include "corank/kinematics/assembly.h"
+#include "corank/kinematics/equations/assembly.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "corank/kinematics/part_file.h"
-#include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/symbolic/model/evaluate.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/writing/printer.h"
 #include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "corank/kinematics/part_file.h"
-#include "corank/kinematics/urdf.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/kinematics/urdf/urdf.h"
 #include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {

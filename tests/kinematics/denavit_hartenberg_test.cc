@@ -1,14 +1,14 @@
 // Arms by rows of Denavit and Hartenberg: forward kinematics of the assembled robot against products of the rows' matrices.
-#include "corank/kinematics/part_builder.h"
+#include "corank/kinematics/language/part_builder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "corank/kinematics/part_file.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/writing/printer.h"
 #include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {

@@ -1,11 +1,11 @@
 // Equations that follow from others by exact identities, alone and in a robot that is over-constrained by its count.
-#include "corank/kinematics/identities.h"
+#include "corank/kinematics/loops/identities.h"
 
 #include <gtest/gtest.h>
 
 #include <utility>
 
-#include "corank/symbolic/ginac_lock.h"
+#include "corank/symbolic/algebra/ginac_lock.h"
 #include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <random>
 
-#include "corank/kinematics/parallelograms.h"
-#include "corank/kinematics/part_file.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/kinematics/loops/parallelograms.h"
 #include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/kinematics/part_file.h"
+#include "corank/kinematics/language/part_file.h"
 
 namespace corank::kinematics {
 namespace {

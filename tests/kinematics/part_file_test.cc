@@ -1,5 +1,5 @@
 // What texts of the parts language mean.
-#include "corank/kinematics/part_file.h"
+#include "corank/kinematics/language/part_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <tao/pegtl/contrib/analyze.hpp>
 
-#include "corank/kinematics/assembly.h"
-#include "corank/kinematics/part_grammar.h"
+#include "corank/kinematics/equations/assembly.h"
+#include "corank/kinematics/language/part_grammar.h"
 
 namespace corank::kinematics {
 namespace {

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "corank/kinematics/part_file.h"
+#include "corank/kinematics/language/part_file.h"
 
 namespace corank::kinematics {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "corank/kinematics/part_file.h"
+#include "corank/kinematics/language/part_file.h"
 #include "corank/tests/kinematics/assembled.h"
 
 namespace corank::kinematics {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "corank/kinematics/robot.h"
-#include "corank/kinematics/vectors.h"
+#include "corank/kinematics/robot/robot.h"
+#include "corank/kinematics/robot/vectors.h"
 
 namespace corank::kinematics {
 namespace {

@@ -9,8 +9,8 @@
 #include <regex>
 #include <sstream>
 
-#include "corank/kinematics/assembly.h"
-#include "corank/kinematics/part_file.h"
+#include "corank/kinematics/equations/assembly.h"
+#include "corank/kinematics/language/part_file.h"
 #include "corank/tests/cuik/suite_files.h"
 
 namespace corank::kinematics {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "corank/kinematics/robot.h"
+#include "corank/kinematics/robot/robot.h"
 
 namespace corank::kinematics {
 

@@ -1,6 +1,6 @@
 // URDF files as robots: what is read, exactly, and where a file is wrong. The samples in tests/data/urdf are read by urdfdom
 // as well.
-#include "corank/kinematics/urdf.h"
+#include "corank/kinematics/urdf/urdf.h"
 
 #include <console_bridge/console.h>
 #include <gmock/gmock.h>

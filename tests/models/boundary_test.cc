@@ -9,12 +9,12 @@
 #include <numbers>
 #include <random>
 
-#include "corank/analyze/area_by_boundary.h"
+#include "corank/analyze/maps/area_by_boundary.h"
 #include "corank/core/dense.h"
-#include "corank/result/verification.h"
+#include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
-#include "corank/symbolic/boundary.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/boundary.h"
 
 namespace corank {
 namespace {

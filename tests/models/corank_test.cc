@@ -12,13 +12,13 @@
 
 #include "corank/certify/exact_verification.h"
 #include "corank/check/checker.h"
-#include "corank/solve/corank_system.h"
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/solve/exactness/corank_system.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/kernel_scale.h"
+#include "corank/symbolic/sets/singularity_system.h"
 #include "corank/tests/models/exactly_solved.h"
 
 namespace corank {

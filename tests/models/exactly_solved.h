@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/solve.h"
 
 namespace corank::test {
 

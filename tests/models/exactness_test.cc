@@ -1,7 +1,7 @@
 // What only exact arithmetic proves: the three-slider's degenerate points, Dextar's configurations with a kernel of
 // dimension 2.
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/solve.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 
 #include "corank/certify/algebraic_number.h"
 #include "corank/certify/exact_verification.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank {

@@ -8,11 +8,11 @@
 #include <numbers>
 
 #include "corank/check/checker.h"
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/singularity_system.h"
 #include "corank/tests/models/exactly_solved.h"
 
 namespace corank {

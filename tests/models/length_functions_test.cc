@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/cover_lookup.h"
 
 namespace corank {

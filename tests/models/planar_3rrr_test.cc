@@ -13,10 +13,10 @@
 #include <tuple>
 #include <vector>
 
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/writing/printer.h"
 #include "corank/tests/cover_lookup.h"
 #include "corank/tests/models/closed_forms.h"
 #include "corank/tests/models/given_rates.h"

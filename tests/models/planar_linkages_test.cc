@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/kinematics/part_file.h"
+#include "corank/kinematics/language/part_file.h"
 #include "corank/tests/models/closed_forms.h"
 #include "corank/tests/models/planar_parts.h"
 

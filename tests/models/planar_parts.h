@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/models/closed_forms.h"
 #include "corank/tests/models/planar_parts.h"
 

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "corank/check/checker.h"
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 
 namespace corank {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/tests/models/given_rates.h"
 
 namespace corank {

@@ -5,11 +5,11 @@
 #include <regex>
 #include <sstream>
 
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/kernel_scale.h"
+#include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/kernel_scale.h"
 
 namespace corank {
 namespace {

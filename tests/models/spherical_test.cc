@@ -9,9 +9,9 @@
 #include <filesystem>
 
 #include "corank/core/rounding.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/cover_lookup.h"
 #include "corank/tests/models/given_rates.h"
 

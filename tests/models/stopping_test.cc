@@ -5,10 +5,10 @@
 #include <atomic>
 
 #include "corank/check/checker.h"
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/cover_lookup.h"
 #include "corank/tests/models/closed_forms.h"
 

@@ -12,11 +12,11 @@
 #include <numbers>
 #include <random>
 
-#include "corank/result/tallies.h"
-#include "corank/result/verification.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/tallies.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/cover_lookup.h"
 
 namespace corank {

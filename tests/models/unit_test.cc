@@ -5,14 +5,14 @@
 #include <cmath>
 #include <regex>
 
-#include "corank/solve/ipopt.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/exactness/ipopt.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/answer.h"
 #include "corank/study/question.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/kernel_scale.h"
+#include "corank/symbolic/sets/singularity_system.h"
 #include "corank/tests/cover_lookup.h"
 #include "corank/tests/models/given_rates.h"
 

@@ -6,15 +6,15 @@
 #include <cstdlib>
 #include <random>
 
-#include "corank/report/page.h"
-#include "corank/result/result_file.h"
-#include "corank/result/summary.h"
-#include "corank/result/verification.h"
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/model_error.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
+#include "corank/report/html/page.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/summary.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_error.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/writing/printer.h"
 #include "corank/tests/report/portrait_reader.h"
 
 namespace corank::report {

@@ -1,5 +1,5 @@
 // Unions of rectangles on a grid: what the polygons hold is what was added.
-#include "corank/report/cell_union.h"
+#include "corank/report/pictures/cell_union.h"
 
 #include <gtest/gtest.h>
 

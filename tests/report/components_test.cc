@@ -1,10 +1,10 @@
 // Which boxes hang together, and what is said about it.
-#include "corank/report/components.h"
+#include "corank/report/pictures/components.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "corank/report/page_words.h"
+#include "corank/report/html/page_words.h"
 
 namespace corank::report {
 namespace {

@@ -3,9 +3,9 @@
 // points J5 and J1 (an arm folded).
 #include <gtest/gtest.h>
 
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/report/portrait_reader.h"
 
 namespace corank::report {

@@ -1,5 +1,5 @@
 // Angles in pictures are those of certify/, to the last bit.
-#include "corank/report/picture.h"
+#include "corank/report/pictures/picture.h"
 
 #include <gtest/gtest.h>
 

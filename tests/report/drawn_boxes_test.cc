@@ -1,5 +1,5 @@
 // Hulls in place of very many boxes hold all of them, of each verdict for itself.
-#include "corank/report/drawn_boxes.h"
+#include "corank/report/pictures/drawn_boxes.h"
 
 #include <gtest/gtest.h>
 

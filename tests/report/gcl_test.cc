@@ -1,4 +1,4 @@
-#include "corank/report/picture.h"
+#include "corank/report/pictures/picture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

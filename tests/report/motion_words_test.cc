@@ -1,16 +1,16 @@
-#include "corank/result/sentences.h"
+#include "corank/result/values/sentences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "corank/report/page_words.h"
-#include "corank/result/summary.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/report/html/page_words.h"
+#include "corank/result/values/summary.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::report {
 namespace {

@@ -1,5 +1,5 @@
 // A report's page holds what the results hold, and loads nothing.
-#include "corank/report/page.h"
+#include "corank/report/html/page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "corank/report/box_payload.h"
-#include "corank/report/page_data.h"
-#include "corank/result/hdf5_file.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/report/html/page_data.h"
+#include "corank/report/pictures/box_payload.h"
+#include "corank/result/files/hdf5_file.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/report/page_text.h"
 #include "corank/tests/result/sample_result.h"
 

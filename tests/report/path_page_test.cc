@@ -1,5 +1,5 @@
 // A path's page: what it says, and what its script reads.
-#include "corank/report/path_page.h"
+#include "corank/report/html/path_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::report {
 namespace {

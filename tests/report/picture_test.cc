@@ -1,5 +1,5 @@
 // Which boxes a picture shows, where, and in which colours.
-#include "corank/report/picture.h"
+#include "corank/report/pictures/picture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "corank/report/layout.h"
+#include "corank/report/pictures/layout.h"
 
 namespace corank::report {
 namespace {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/report/portrait.h"
+#include "corank/report/pictures/portrait.h"
 
 namespace corank::report {
 

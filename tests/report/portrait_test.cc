@@ -1,5 +1,5 @@
 // Flat pictures, read back: their structure, and that what is drawn is the union of the boxes.
-#include "corank/report/portrait.h"
+#include "corank/report/pictures/portrait.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "corank/report/layout.h"
+#include "corank/report/pictures/layout.h"
 #include "corank/tests/report/portrait_reader.h"
 
 namespace corank::report {

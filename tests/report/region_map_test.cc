@@ -1,4 +1,4 @@
-#include "corank/report/region_map.h"
+#include "corank/report/pictures/region_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "corank/report/set_look.h"
+#include "corank/report/pictures/set_look.h"
 
 namespace corank::report {
 namespace {

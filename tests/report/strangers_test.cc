@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "corank/result/result_file.h"
+#include "corank/result/files/result_file.h"
 #include "corank/tests/report/portrait_reader.h"
 #include "corank/tests/result/sample_result.h"
 

@@ -1,5 +1,5 @@
 // Pictures for ParaView, read back as VTK's own reader does.
-#include "corank/report/picture.h"
+#include "corank/report/pictures/picture.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

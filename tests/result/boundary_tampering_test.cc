@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <functional>
 
-#include "corank/result/result_file.h"
-#include "corank/result/verification.h"
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
-#include "corank/symbolic/set_parts.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/files/verification.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/set_parts.h"
+#include "corank/symbolic/writing/printer.h"
 #include "corank/tests/result/rejection.h"
 
 namespace corank::result {

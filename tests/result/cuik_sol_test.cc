@@ -1,4 +1,4 @@
-#include "corank/result/cuik_files.h"
+#include "corank/result/cuik/cuik_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Angles of exact points: multiples of pi by their names, others by their sine and cosine.
-#include "corank/result/words.h"
+#include "corank/result/values/words.h"
 
 #include <gtest/gtest.h>
 

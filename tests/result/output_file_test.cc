@@ -1,5 +1,5 @@
 // Files that are written beside their place: what they respect, and that nothing is left of them.
-#include "corank/result/output_file.h"
+#include "corank/result/files/output_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <functional>
 
-#include "corank/result/result_file.h"
+#include "corank/result/files/result_file.h"
 #include "corank/tests/report/portrait_reader.h"
 
 namespace corank::result {

@@ -1,5 +1,5 @@
 // Arrays that several threads compress are, chunk by chunk, what HDF5's own filters read.
-#include "corank/result/packed_chunks.h"
+#include "corank/result/files/packed_chunks.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <random>
 
-#include "corank/result/hdf5_file.h"
+#include "corank/result/files/hdf5_file.h"
 
 namespace corank::result {
 namespace {

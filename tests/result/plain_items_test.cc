@@ -1,6 +1,6 @@
 // The bytes in which one process hands a file's contents to another: read back exactly, and refused where they are anything
 // else.
-#include "corank/result/plain_items.h"
+#include "corank/result/files/plain_items.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a file says cannot steer a terminal.
-#include "corank/result/words.h"
+#include "corank/result/values/words.h"
 
 #include <gtest/gtest.h>
 

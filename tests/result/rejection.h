@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "corank/result/result_file.h"
-#include "corank/result/verification.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/files/verification.h"
 
 namespace corank::result {
 

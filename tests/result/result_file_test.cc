@@ -1,5 +1,5 @@
 // Result files: what is written is read back bit for bit; what is no result is refused.
-#include "corank/result/result_file.h"
+#include "corank/result/files/result_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <optional>
 #include <sstream>
 
-#include "corank/result/cover_group.h"
+#include "corank/result/files/cover_group.h"
 #include "corank/tests/result/sample_result.h"
 
 namespace corank::result {

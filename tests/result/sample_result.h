@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "corank/result/result.h"
+#include "corank/result/values/result.h"
 
 namespace corank::result {
 

@@ -1,6 +1,6 @@
 // The table and the JSON summary of a made-up result.
-#include "corank/result/summary.h"
-#include "corank/result/words.h"
+#include "corank/result/values/summary.h"
+#include "corank/result/values/words.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

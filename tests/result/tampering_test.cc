@@ -9,15 +9,15 @@
 #include <functional>
 #include <limits>
 
-#include "corank/result/result_file.h"
-#include "corank/result/verification.h"
-#include "corank/solve/box_labels.h"
-#include "corank/solve/exactness.h"
-#include "corank/solve/solve.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
-#include "corank/symbolic/velocity_blocks.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/files/verification.h"
+#include "corank/solve/exactness/exactness.h"
+#include "corank/solve/search/box_labels.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/velocity_blocks.h"
+#include "corank/symbolic/writing/printer.h"
 #include "corank/tests/result/rejection.h"
 
 namespace corank::result {

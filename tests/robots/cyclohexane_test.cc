@@ -6,7 +6,7 @@
 #include <random>
 
 #include "corank/core/dense.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
 

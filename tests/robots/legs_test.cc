@@ -5,8 +5,8 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "corank/kinematics/assembly.h"
-#include "corank/symbolic/velocity_equation.h"
+#include "corank/kinematics/equations/assembly.h"
+#include "corank/symbolic/velocity/velocity_equation.h"
 #include "corank/tests/robots/numeric_mechanism.h"
 #include "corank/tests/seeds.h"
 

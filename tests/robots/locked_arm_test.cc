@@ -7,10 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
-#include "corank/symbolic/evaluate.h"
+#include "corank/symbolic/model/evaluate.h"
 #include "corank/tests/robots/numeric_mechanism.h"
 
 namespace corank {

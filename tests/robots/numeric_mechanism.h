@@ -11,9 +11,9 @@
 
 #include "corank/core/dense.h"
 #include "corank/core/system.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/evaluate.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/symbolic/model/evaluate.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::test {
 

@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-#include "corank/kinematics/assembly.h"
+#include "corank/kinematics/equations/assembly.h"
 #include "corank/tests/robots/numeric_mechanism.h"
 
 namespace corank::test {

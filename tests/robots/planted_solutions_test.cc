@@ -7,9 +7,9 @@
 #include <functional>
 #include <iostream>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/question.h"
-#include "corank/symbolic/evaluate.h"
+#include "corank/symbolic/model/evaluate.h"
 #include "corank/tests/robots/planted_robot.h"
 #include "corank/tests/seeds.h"
 

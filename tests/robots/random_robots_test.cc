@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "corank/symbolic/velocity_equation.h"
+#include "corank/symbolic/velocity/velocity_equation.h"
 #include "corank/tests/robots/planted_robot.h"
 
 namespace corank {

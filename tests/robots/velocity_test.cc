@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "corank/kinematics/assembly.h"
-#include "corank/kinematics/part_file.h"
-#include "corank/symbolic/velocity_equation.h"
+#include "corank/kinematics/equations/assembly.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/symbolic/velocity/velocity_equation.h"
 #include "corank/tests/robots/numeric_mechanism.h"
 
 namespace corank {

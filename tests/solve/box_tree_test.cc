@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "corank/solve/points.h"
+#include "corank/solve/step/points.h"
 
 namespace corank::solve {
 namespace {

@@ -1,12 +1,12 @@
 // The choice of free variables, and the pieces that proven sheets are cut into.
-#include "corank/solve/preconditioner.h"
+#include "corank/solve/step/preconditioner.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::solve {

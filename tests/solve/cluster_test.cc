@@ -5,8 +5,8 @@
 #include <random>
 
 #include "corank/check/checker.h"
-#include "corank/solve/cluster.h"
-#include "corank/solve/shard_bytes.h"
+#include "corank/solve/distribution/cluster.h"
+#include "corank/solve/store/shard_bytes.h"
 #include "corank/tests/solve/same_cover.h"
 
 namespace corank::solve {

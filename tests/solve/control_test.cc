@@ -1,5 +1,5 @@
 // What ends a run, and what a control says of it.
-#include "corank/solve/control.h"
+#include "corank/solve/step/control.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <vector>
 
-#include "corank/solve/memory.h"
+#include "corank/solve/store/memory.h"
 #include "corank/tests/solve/cover_questions.h"
 
 namespace corank::solve {

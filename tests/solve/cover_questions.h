@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::solve {

@@ -1,7 +1,7 @@
 // What a trial predicts, against what the search then does.
 #include <gtest/gtest.h>
 
-#include "corank/solve/estimate.h"
+#include "corank/solve/search/estimate.h"
 #include "corank/tests/solve/same_cover.h"
 
 namespace corank::solve {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "corank/core/rounding.h"
-#include "corank/solve/branching.h"
-#include "corank/solve/preconditioner.h"
+#include "corank/solve/step/branching.h"
+#include "corank/solve/step/preconditioner.h"
 
 namespace corank::solve {
 namespace {

@@ -9,9 +9,9 @@
 #include "corank/certify/reduction.h"
 #include "corank/check/checker.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/implied_equations.h"
-#include "corank/solve/reducer.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/reduction/implied_equations.h"
+#include "corank/solve/reduction/reducer.h"
+#include "corank/solve/search/solve.h"
 #include "corank/tests/solve/cover_questions.h"
 #include "corank/tests/system_builder.h"
 

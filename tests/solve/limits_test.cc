@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "corank/solve/branching.h"
+#include "corank/solve/step/branching.h"
 
 namespace corank::solve {
 namespace {

@@ -1,6 +1,6 @@
 // Random systems whose equations share products: sparse equations through a planted rational point, mixed by a dense matrix
-// whose entries are rational, irrational, or rounded to some digits. What solve/product_elimination.h makes of them loses no
-// planted point, claims nothing false, and is verified by the checker, with the script of the search.
+// whose entries are rational, irrational, or rounded to some digits. What solve/reduction/product_elimination.h makes of
+// them loses no planted point, claims nothing false, and is verified by the checker, with the script of the search.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "corank/check/checker.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/tests/seeds.h"
 #include "corank/tests/solve/cover_questions.h"
 

@@ -1,5 +1,5 @@
 // What a search is asked for says itself whether it makes sense.
-#include "corank/solve/options.h"
+#include "corank/solve/step/options.h"
 
 #include <gtest/gtest.h>
 

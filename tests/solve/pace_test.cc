@@ -1,4 +1,4 @@
-#include "corank/solve/pace.h"
+#include "corank/solve/distribution/pace.h"
 
 #include <gtest/gtest.h>
 

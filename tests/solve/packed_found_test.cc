@@ -5,8 +5,8 @@
 #include <random>
 #include <sstream>
 
-#include "corank/solve/byte_archive.h"
-#include "corank/solve/packed_found.h"
+#include "corank/solve/store/byte_archive.h"
+#include "corank/solve/store/packed_found.h"
 
 namespace corank::solve {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "corank/solve/flint.h"
+#include "corank/solve/reduction/flint.h"
 
 namespace corank::solve {
 namespace {

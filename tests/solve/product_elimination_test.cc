@@ -1,11 +1,11 @@
-#include "corank/solve/product_elimination.h"
+#include "corank/solve/reduction/product_elimination.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "corank/core/rounding.h"
-#include "corank/solve/reducer.h"
+#include "corank/solve/reduction/reducer.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::solve {

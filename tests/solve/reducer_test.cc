@@ -1,5 +1,5 @@
 // Which steps are chosen, and that they keep every solution.
-#include "corank/solve/reducer.h"
+#include "corank/solve/reduction/reducer.h"
 
 #include <gtest/gtest.h>
 

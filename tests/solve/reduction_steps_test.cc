@@ -1,7 +1,7 @@
 // What the steps of a reduction keep, wherever they were chosen: ranges, contradictions, tolerances.
 #include <gtest/gtest.h>
 
-#include "corank/solve/reducer.h"
+#include "corank/solve/reduction/reducer.h"
 #include "corank/tests/solve/reductions.h"
 
 namespace corank::solve {

@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "corank/solve/box_labels.h"
-#include "corank/solve/control.h"
-#include "corank/solve/options.h"
+#include "corank/solve/search/box_labels.h"
+#include "corank/solve/step/control.h"
+#include "corank/solve/step/options.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::solve {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/tests/solve/cover_questions.h"
 
 namespace corank::solve {

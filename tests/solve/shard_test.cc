@@ -4,10 +4,10 @@
 #include <random>
 
 #include "corank/check/checker.h"
-#include "corank/solve/assembly.h"
-#include "corank/solve/passes.h"
-#include "corank/solve/shard_bytes.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/search/assembly.h"
+#include "corank/solve/search/passes.h"
+#include "corank/solve/search/solve.h"
+#include "corank/solve/store/shard_bytes.h"
 #include "corank/tests/solve/same_cover.h"
 
 namespace corank::solve {

@@ -11,8 +11,8 @@
 #include <random>
 #include <sstream>
 
-#include "corank/solve/reducer.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/reduction/reducer.h"
+#include "corank/solve/search/solve.h"
 #include "corank/tests/seeds.h"
 
 namespace corank::solve {

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "corank/result/summary.h"
-#include "corank/result/verification.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/summary.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/result/sample_result.h"
 #include "corank/tests/system_builder.h"
 

@@ -10,13 +10,13 @@
 #include <filesystem>
 #include <random>
 
-#include "corank/result/result_file.h"
-#include "corank/result/sentences.h"
-#include "corank/result/summary.h"
-#include "corank/result/verification.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/sentences.h"
+#include "corank/result/values/summary.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::study {
 namespace {

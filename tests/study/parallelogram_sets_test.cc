@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "corank/result/verification.h"
+#include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
 

@@ -13,11 +13,11 @@
 #include <random>
 
 #include "corank/core/dense.h"
-#include "corank/result/result_file.h"
-#include "corank/result/verification.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
-#include "corank/symbolic/algebrizer.h"
+#include "corank/symbolic/sets/algebrizer.h"
 
 namespace corank::study {
 namespace {

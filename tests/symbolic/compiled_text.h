@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/symbolic/evaluate.h"
 
 namespace corank::symbolic {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/writing/printer.h"
 #include "corank/tests/symbolic/evaluate.h"
 
 namespace corank::symbolic {

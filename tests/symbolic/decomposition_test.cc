@@ -1,7 +1,7 @@
 // Sets in parts, planted: random matrices of random blocks, some with a fixed angle and passive numbers among their entries,
 // whose determinant is known where it is evaluated. No part is false: where it holds, the determinant vanishes. None is
 // lost: where a planted factor vanishes or the determinant changes its sign, a part holds. CORANK_SEEDS=100000: as many.
-#include "corank/symbolic/decomposition.h"
+#include "corank/symbolic/sets/decomposition.h"
 
 #include <gtest/gtest.h>
 

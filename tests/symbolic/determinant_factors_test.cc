@@ -1,5 +1,5 @@
 // Determinants in factors: random matrices whose blocks and factors are planted, against determinants of rational numbers.
-#include "corank/symbolic/determinant_factors.h"
+#include "corank/symbolic/sets/determinant_factors.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numeric>
 #include <random>
 
-#include "corank/symbolic/exact_matrix.h"
-#include "corank/symbolic/model_error.h"
+#include "corank/symbolic/model/model_error.h"
+#include "corank/symbolic/velocity/exact_matrix.h"
 #include "corank/tests/symbolic/evaluate.h"
 
 namespace corank::symbolic {

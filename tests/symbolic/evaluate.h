@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "corank/core/system.h"
-#include "corank/symbolic/mechanism.h"
+#include "corank/symbolic/model/mechanism.h"
 
 namespace corank::symbolic {
 

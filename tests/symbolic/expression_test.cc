@@ -1,11 +1,11 @@
-#include "corank/symbolic/expression.h"
+#include "corank/symbolic/model/expression.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::symbolic {
 namespace {

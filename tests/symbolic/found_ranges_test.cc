@@ -1,11 +1,11 @@
 // Ranges that are left out: found where the equations give them, asked for where they do not.
-#include "corank/symbolic/limits.h"
+#include "corank/symbolic/sets/limits.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 
 namespace corank::symbolic {
 namespace {

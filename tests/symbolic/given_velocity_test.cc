@@ -5,11 +5,11 @@
 #include <functional>
 #include <string>
 
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/kernel_scale.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/kernel_scale.h"
+#include "corank/symbolic/sets/singularity_system.h"
+#include "corank/symbolic/writing/printer.h"
 
 namespace corank::symbolic {
 namespace {

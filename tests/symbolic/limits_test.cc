@@ -1,13 +1,13 @@
 // Limits of coordinates: their section, what they mean to a system, their faults.
-#include "corank/symbolic/limits.h"
+#include "corank/symbolic/sets/limits.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/printer.h"
-#include "corank/symbolic/set_parts.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/set_parts.h"
+#include "corank/symbolic/writing/printer.h"
 
 namespace corank::symbolic {
 namespace {

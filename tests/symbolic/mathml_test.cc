@@ -1,11 +1,11 @@
 // Expressions in MathML, checked as text with the tags of grouping left out.
-#include "corank/symbolic/mathml.h"
+#include "corank/symbolic/writing/mathml.h"
 
 #include <gtest/gtest.h>
 
 #include <regex>
 
-#include "corank/symbolic/display_name.h"
+#include "corank/symbolic/model/display_name.h"
 
 namespace corank::symbolic {
 namespace {

@@ -1,4 +1,4 @@
-#include "corank/symbolic/mechanism.h"
+#include "corank/symbolic/model/mechanism.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::symbolic {
 namespace {

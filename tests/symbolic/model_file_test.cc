@@ -1,4 +1,4 @@
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 
 #include <tao/pegtl/contrib/analyze.hpp>
 
-#include "corank/symbolic/model_builder.h"
-#include "corank/symbolic/model_grammar.h"
+#include "corank/symbolic/model/model_builder.h"
+#include "corank/symbolic/model/model_grammar.h"
 #include "corank/tests/cuik/suite_files.h"
 
 namespace corank::symbolic {

@@ -1,5 +1,5 @@
 // A mechanism's text reads back as the same mechanism: the repository's models, and random ones.
-#include "corank/symbolic/printer.h"
+#include "corank/symbolic/writing/printer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <random>
 
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::symbolic {
 namespace {

@@ -1,10 +1,10 @@
-#include "corank/symbolic/parameters.h"
+#include "corank/symbolic/sets/parameters.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 
 namespace corank::symbolic {
 namespace {

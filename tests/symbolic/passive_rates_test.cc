@@ -1,4 +1,4 @@
-#include "corank/symbolic/passive_rates.h"
+#include "corank/symbolic/velocity/passive_rates.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "corank/symbolic/model_file.h"
-#include "corank/symbolic/singularity_system.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/singularity_system.h"
 #include "corank/tests/symbolic/evaluate.h"
 
 namespace corank::symbolic {

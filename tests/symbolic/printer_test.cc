@@ -1,14 +1,14 @@
 // What is printed for programs must read back as the same system; what is printed for people is compared with the page as a
 // whole.
-#include "corank/symbolic/printer.h"
+#include "corank/symbolic/writing/printer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/tests/symbolic/evaluate.h"
 #include "corank/tests/symbolic/reference.h"
 

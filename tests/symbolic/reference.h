@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank::symbolic {
 

@@ -1,5 +1,5 @@
 // What the table of sets says is consistent, and who asks by name finds it.
-#include "corank/symbolic/set_definition.h"
+#include "corank/symbolic/model/set_definition.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Derivations: against hand-written matrices for the two reference mechanisms, against differences for random ones.
-#include "corank/symbolic/singularity_system.h"
+#include "corank/symbolic/sets/singularity_system.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/symbolic/evaluate.h"
 #include "corank/tests/symbolic/reference.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "corank/result/cuik_files.h"
+#include "corank/result/cuik/cuik_files.h"
 #include "corank/tests/cuik/shell.h"
 
 namespace corank::cuik {

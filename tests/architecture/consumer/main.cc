@@ -2,10 +2,10 @@
 // five-bar robot from its links and joints.
 #include <iostream>
 
-#include "corank/kinematics/assembly.h"
-#include "corank/result/result_file.h"
+#include "corank/kinematics/equations/assembly.h"
+#include "corank/result/files/result_file.h"
 #include "corank/study/answer.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 using namespace corank;
 

@@ -1,7 +1,7 @@
 // Cusps and nodes of orthogonal 3R arms against the traced image of their inverse locus, in doubles and without any of
 // corank's equations.
-#include "corank/result/sentences.h"
-#include "corank/result/verification.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/sentences.h"
 #include "corank/tests/models/cusps/asking.h"
 
 namespace corank::test {

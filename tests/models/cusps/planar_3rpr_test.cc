@@ -3,9 +3,9 @@
 #include <array>
 
 #include "corank/check/checker.h"
-#include "corank/result/sentences.h"
-#include "corank/result/summary.h"
-#include "corank/result/verification.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/sentences.h"
+#include "corank/result/values/summary.h"
 #include "corank/tests/models/cusps/asking.h"
 
 namespace corank::test {

@@ -1,10 +1,10 @@
 // The systems of cusps and nodes: how many equations they have, what they are called, and what is refused.
 #include <gmock/gmock.h>
 
-#include "corank/result/sentences.h"
-#include "corank/symbolic/algebrizer.h"
-#include "corank/symbolic/cusps_and_nodes.h"
-#include "corank/symbolic/kernel_scale.h"
+#include "corank/result/values/sentences.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/cusps_and_nodes.h"
+#include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/tests/models/cusps/asking.h"
 
 namespace corank::test {

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "corank/core/dense.h"
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
-#include "corank/symbolic/model_file.h"
+#include "corank/symbolic/model/model_file.h"
 
 namespace corank {
 namespace {

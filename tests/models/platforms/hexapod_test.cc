@@ -9,7 +9,7 @@
 #include <optional>
 #include <random>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
 #include "corank/tests/models/platforms/solved.h"

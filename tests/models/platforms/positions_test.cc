@@ -8,8 +8,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "corank/kinematics/part_file.h"
-#include "corank/solve/solve.h"
+#include "corank/kinematics/language/part_file.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "corank/solve/solve.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
 #include "corank/tests/models/platforms/solved.h"

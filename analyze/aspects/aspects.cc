@@ -1,0 +1,106 @@
+#include "corank/analyze/aspects/aspects.h"
+
+#include <algorithm>
+
+#include "corank/analyze/topology/topology_with_ends.h"
+#include "corank/certify/inertia.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/search/solve.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/determinant_factors.h"
+
+namespace corank::analyze {
+namespace {
+
+// Of the determinant of a square matrix at each of the boxes.
+std::vector<int> signs_of_determinant(const symbolic::TrigonometricSystem& equations, const System& system,
+                                      const symbolic::ExpressionMatrix& matrix, const std::vector<Box>& boxes) {
+  std::vector<symbolic::Expression> entries;
+  for (const auto& row : matrix.rows) entries.insert(entries.end(), row.begin(), row.end());
+  const certify::CompiledSystem compiled(system, symbolic::polynomials(equations, entries));
+  const int n = static_cast<int>(matrix.rows.size());
+  const UpwardRounding rounding;
+  std::vector<int> result;
+  for (const Box& box : boxes) {
+    certify::IntervalMatrix values(n, n);
+    for (int k = 0; k < n * n; ++k) values.entries[k] = compiled.evaluate(compiled.value_row(k), box);
+    result.push_back(sign_of(certify::determinant(values)));
+  }
+  return result;
+}
+
+}  // namespace
+
+Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control) {
+  Aspects result;
+  question.set = symbolic::SingularitySet::cspace;
+  const symbolic::TrigonometricSystem equations = study::equations(question);
+  result.system = study::system(question, equations);
+  const Ended ended = [&control] { return control.ended(); };
+  symbolic::Loci loci;
+  try {
+    loci = symbolic::singularity_loci(question.model, ended);
+  } catch (const symbolic::DeterminantTooLarge& error) {
+    result.reason = error.what();
+    return result;
+  }
+  for (const auto& e : loci.factors[0]) result.forward_factors.push_back(e.text());
+  for (const auto& e : loci.factors[1]) result.inverse_factors.push_back(e.text());
+
+  const std::vector<Interval> domain = result.system.domain();
+  const auto widest =
+      std::ranges::max_element(domain, [](const Interval& a, const Interval& b) { return a.width() < b.width(); });
+  const solve::Options search{.sigma = 2 * widest->width() + 2,  // sheets are not cut
+                              .threads = options.threads,
+                              .proof = options.certificate,
+                              .proof_of_parts = false};
+  const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
+  // A box that a limit has left is no sheet.
+  if (!std::ranges::all_of(cover.boxes, is_sheet)) {
+    result.reason = "C-space is not shown to be smooth in the search domain";
+    return result;
+  }
+  result.system = with_single_values(std::move(result.system));
+  if (!cover.complete() || !is_square_over(result.system, cover.dimension)) {
+    result.reason = control.ended() ? "the analysis was ended by a limit" : "C-space could not be covered";
+    return result;
+  }
+  if (options.certificate) result.cover = std::make_shared<const Cover>(cover);
+  std::vector<Polynomial> ends;
+  const std::vector<Limit> touched = limits(result.system, cover);
+  for (const Limit& limit : touched) ends.push_back(limit.function);
+  std::uint64_t processed = 0;
+  if (!touched.empty())
+    for (const Limit& limit : without_unreached(result.system, touched, {.threads = options.threads}, processed, control))
+      result.limits.push_back(limit.name);
+  const auto count = [&](const std::vector<symbolic::Expression>& functions, bool first) {
+    if (control.ended()) {
+      Pieces unknown;
+      unknown.reason = "the analysis was ended by a limit";
+      return unknown;
+    }
+    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends,
+                    [&control] { return control.ended(); });
+    cells.refine(options.halvings, options.rounds, control);
+    Pieces found = pieces(cells, control);
+    const bool plane = cover.dimension == 2 && options.images.size() == 2 && found.exact();
+    const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
+    if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
+    if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn, ended);
+    if (first && options.cusps) result.cusps = aspect_cusps(question, loci, cells, found, options.threads, control);
+    if (first && options.placed) result.places = piece_places(cells, found, options.placed->boxes, control);
+    return found;
+  };
+  result.aspects = count(loci.all_factors, true);
+  if (result.cusps && cover.dimension == 2 && result.limits.empty())
+    check_parity(question, options.threads, control, *result.cusps);
+  const std::vector<Box>& at = result.aspects.representatives;
+  const std::vector<int> y = signs_of_determinant(equations, result.system, loci.matrices[0], at);
+  const std::vector<int> z = signs_of_determinant(equations, result.system, loci.matrices[1], at);
+  for (std::size_t k = 0; k < at.size(); ++k) result.determinant_signs.push_back({y[k], z[k]});
+  result.assembly_modes = count(loci.factors[0], false);
+  result.working_modes = count(loci.factors[1], false);
+  return result;
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,62 @@
+// The pieces into which its singularities divide a C-space.
+//
+//   aspects         pieces of C-space without forward and inverse singularities (Wenger, Chablat 1997)
+//   assembly modes  pieces of C-space without forward singularities
+//   working modes   pieces of C-space without inverse singularities
+//
+// Counted on cells (sign_cells.h) of a C-space that is smooth in the search domain, strictly within its limits. In each
+// piece the factors of the determinants of L_y and L_z keep their signs.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "corank/analyze/aspects/aspect_cusps.h"
+#include "corank/analyze/aspects/aspect_images.h"
+
+namespace corank::result {
+struct PiecesFile;
+}
+
+namespace corank::analyze {
+
+struct Aspects {
+  Pieces aspects, assembly_modes, working_modes;
+  std::vector<std::string> forward_factors, inverse_factors;  ///< of det L_y, det L_z
+  std::vector<std::string> limits;                            ///< to which C-space comes: pieces are strictly within
+  System system;                                              ///< C-space: the variables of the boxes
+  std::string reason;                                         ///< why nothing is known; empty where something is
+  /// Of each aspect the signs of det L_y and det L_z, as `corank derive` prints the matrices; 0: not proven.
+  std::vector<std::array<int, 2>> determinant_signs;
+  std::optional<PieceImages> images;    ///< of the aspects, where AspectsOptions::images asks for them
+  std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
+  std::optional<AspectCusps> cusps;     ///< and the aspects about them, where AspectsOptions::cusps asks for them
+  std::shared_ptr<const Cover> cover;   ///< of C-space with its proof, where AspectsOptions::certificate asks for it
+  std::vector<int> places;              ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places)
+};
+
+struct AspectsOptions {
+  int threads = 1;
+  int halvings = 26;                  ///< of a cover's box, at most
+  int rounds = 16;                    ///< SignCells::refine
+  std::vector<std::string> drawn{};   ///< coordinates
+  std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions
+  int rows = 120;                     ///< of the images' grid
+  bool cusps = false;                 ///< look for the cusps of both loci
+  bool certificate = false;           ///< keep what it takes to check the result
+  const Cover* placed = nullptr;      ///< of C-space, to be looked at
+};
+
+/// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.
+Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control);
+
+/// "10 aspects, 2 assembly modes, 4 working modes", or bounds. Requires that something is known.
+std::string summary(const Aspects& aspects);
+/// What is written of it, for others to check. Requires its cover.
+result::PiecesFile to_file(const study::Question& question, const Aspects& aspects);
+/// A few lines for a terminal.
+std::string to_text(const study::Question& question, const Aspects& aspects);
+/// {"aspects": {"at_least", "at_most"}, "assembly_modes", "working_modes", "representatives" …}; doc/topology.md.
+std::string to_json(const study::Question& question, const Aspects& aspects, bool complete);
+
+}  // namespace corank::analyze

@@ -1,0 +1,158 @@
+#include "corank/analyze/clearance/clearance.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "corank/analyze/sets/components.h"
+#include "corank/analyze/sets/nearest.h"
+#include "corank/certify/angle.h"
+#include "corank/core/rounding.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/sentences.h"
+#include "corank/solve/search/solve.h"
+#include "corank/solve/step/preconditioner.h"
+#include "corank/solve/step/problem.h"
+#include "corank/solve/step/propagation.h"
+#include "corank/study/answer.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/writing/printer.h"
+
+namespace corank::analyze {
+namespace {
+
+constexpr double kNothing = 1e-9;  // of the ball's room
+
+Clearance::Center center_of(const study::Question& question, const Ball& ball, const solve::Options& search,
+                            const solve::Control& control) {
+  if (control.ended()) return Clearance::Center::unknown;
+  study::Question at = question;
+  at.model = ball.assembled;
+  if (at.set) at.set = symbolic::SingularitySet::cspace;
+  constexpr std::uint64_t kSolutions = 64;  // a proven sheet may pass by its box: one of them need not hold a configuration
+  const Cover cover = search_briefly(study::system(at), kSolutions, 0, search.threads, control);
+  if (cover.complete() && cover.boxes.empty()) return Clearance::Center::not_assembled;
+  const bool holds_one = std::ranges::any_of(cover.boxes, [](const auto& b) { return is_proven(b.verdict); });
+  return holds_one ? Clearance::Center::assembled : Clearance::Center::unknown;
+}
+
+constexpr double kGivenAway = 1e-6;  // of the radius: the share that the claims give away for their own rounding
+constexpr double kSigma = 1e-3;      // a witness is far narrower
+
+// The number as a decimal, which a model's text shows.
+symbolic::Expression decimal(double x) { return symbolic::parse_expression(fmt::format("{:.17g}", x), "radius"); }
+
+study::Question within(const Clearance& clearance, double radius) {
+  study::Question question = clearance.ball.question;
+  question.model = clearance.ball.within(decimal(radius));
+  return question;
+}
+
+}  // namespace
+
+std::vector<CoordinateValue> coordinate_values(const System& system, const Box& box) {
+  std::vector<CoordinateValue> values;
+  for (int j = 0; j < system.configuration_size; ++j) {
+    const auto side = [&](int v) { return box[v]; };
+    const Variable& v = system.variables[j];
+    const auto angle = std::ranges::find_if(system.angles, [j](const Angle& a) { return a.cosine == j || a.sine == j; });
+    if (angle == system.angles.end()) {
+      if (!v.auxiliary) values.push_back({v.name, side(j)});
+    } else if (angle->cosine == j) {
+      values.push_back({angle->name, certify::angle_enclosure(side(angle->cosine), side(angle->sine), angle->range)});
+    }
+  }
+  return values;
+}
+
+Clearance clearance(const study::Question& question, const BallOptions& options, const ClearanceOptions& wanted,
+                    const solve::Options& search, solve::Control& control) {
+  const auto start = std::chrono::steady_clock::now();
+  Clearance result;
+  std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
+  result.ball = make_ball(question, options);
+  result.precision = wanted.precision;
+  const symbolic::TrigonometricSystem equations = study::equations(result.ball.question);
+  const System system = study::system(result.ball.question, equations);
+  if (wanted.check_center && question.set) {
+    result.center = center_of(question, result.ball, search, control);
+    if (result.center == Clearance::Center::not_assembled)
+      throw question_error(question, "the robot has no configuration at the centre of the ball",
+                           "values that it can take, within the ranges of the model and those that are given");
+  }
+  stage.reset();
+  const solve::Prepared prepared = solve::prepare(system, search, control);
+  const std::vector<Polynomial> differences = symbolic::polynomials(equations, result.ball.differences());
+  // A singularity at the centre itself, but for rounding: no share of such a distance is to be had.
+  const double nothing = kNothing * (std::isfinite(result.ball.room) ? result.ball.room : 1.0);
+  result.nearest = nearest(prepared, differences,
+                           {.precision = wanted.precision, .enough = nothing, .progress = wanted.progress}, control);
+  if (result.nearest.upper && *result.nearest.upper <= nothing) result.nearest.complete = true;
+  if (result.nearest.upper) result.values = coordinate_values(system, result.nearest.box);
+  if (!result.nearest.unproven.empty()) {
+    const Box point(result.nearest.unproven.begin(), result.nearest.unproven.end());
+    for (const CoordinateValue& v : coordinate_values(system, point)) result.seemingly.emplace_back(v.name, v.value.mid());
+  }
+  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+result::Result claim_free(const Clearance& clearance, const solve::Options& search, solve::Control& control) {
+  const study::Question question = within(clearance, clearance.nearest.lower * (1 - kGivenAway));
+  study::Options options{search, 0};
+  options.search.proof = true;
+  return study::answer(question, study::system(question), options, control);
+}
+
+std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::Control& control) {
+  if (!clearance.nearest.upper) return std::nullopt;
+  const study::Question question = within(clearance, *clearance.nearest.upper * (1 + kGivenAway));
+  // Narrower ranges would scale the kernel vector otherwise; the point that is known is in the scales of the search.
+  const System searched = study::system(clearance.ball.question);
+  result::Result result;
+  result.model = question.model.name();
+  result.model_text = question.model.source_text();
+  const symbolic::SetDefinition& set = symbolic::definition(question.set);
+  result.set = set.name;
+  result.options.kernel = set.has_kernel() ? to_string(question.kernel.value_or(set.side)) : "";
+  result.options.kernel_scales = searched.kernel_scales;
+  result.options.tolerance = searched.coefficient_tolerance;
+  result.options.corank = searched.kernel_vectors;
+  result.options.passive_rates_eliminated = searched.passive_rates_eliminated;
+  const System system = result::system_of(question.model, result);
+  result.system_text = symbolic::to_cuik(system);
+  const solve::Prepared prepared = solve::prepare(system, {}, control);
+  const certify::Reduction& reduction = prepared.reduction;
+
+  const UpwardRounding rounding;
+  certify::CompiledSystem compiled(reduction.system, solve::values_of(reduction));
+  compiled.set_scales(solve::typical_sizes(compiled, reduction.system.domain()).variables);
+  std::vector<double> point;
+  for (const int v : reduction.kept) point.push_back(clearance.nearest.box.at(v).mid());
+  solve::PreconditionerFactory preconditioners(compiled);
+  certify::NewtonWorkspace workspace;
+  const auto witness = prove_near(compiled, certify::DomainTest(reduction.system), point, preconditioners, workspace);
+  if (!witness) return std::nullopt;
+
+  CoverBox box;
+  box.box = lifted(compiled, reduction, witness->sheet.image);
+  for (const int j : witness->free) box.free.push_back(reduction.kept[j]);
+  box.verdict = box.free.empty() ? Verdict::isolated : Verdict::regular;
+  box.region = 0;
+  result.cover.sigma = result.options.sigma = {kSigma, kSigma};
+  result.cover.boxes.push_back(box);
+  result.cover.regions.push_back(lifted(compiled, reduction, witness->sheet.region));
+  result.cover.reduction = reduction.steps;
+  if (box.free.empty()) result.cover.points.push_back(box);
+  result::describe_system(system, result);
+  result.cover.dimension = reduction.system.dimension();
+  result::describe_in_words(question.model, system, result);
+  result.stopped = "the first solution that was requested";
+  return result;
+}
+
+}  // namespace corank::analyze

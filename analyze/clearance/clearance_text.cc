@@ -1,0 +1,142 @@
+// A clearance and the best centre, in words and as JSON.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "corank/analyze/clearance/best_center.h"
+#include "corank/analyze/clearance/clearance.h"
+#include "corank/analyze/clearance/json.h"
+
+namespace corank::analyze {
+namespace {
+
+Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+}  // namespace
+
+std::string rounded(double x, bool up) {
+  if (!std::isfinite(x)) return "infinity";
+  double shown = std::stod(fmt::format("{:.6g}", x));
+  const double unit = x == 0 ? 0 : std::pow(10, std::floor(std::log10(std::fabs(x))) - 5);
+  if (up ? shown < x : shown > x) shown += up ? unit : -unit;
+  return fmt::format("{:.6g}", shown);
+}
+
+std::string to_table(const Clearance& c) {
+  std::vector<std::string> at;
+  for (const NamedValue& v : c.ball.center) at.push_back(fmt::format("{} = {}", v.name, v.value.text()));
+  std::string text = fmt::format("{}, {}: ball in {} about {}\n", c.ball.question.model.name(), c.ball.set_name(),
+                                 fmt::join(c.ball.names(), ", "), fmt::join(at, ", "));
+  const Nearest& n = c.nearest;
+  const std::string what = c.ball.question.set ? "singularity" : "solution";
+  if (n.empty) {
+    text += fmt::format("it is proven that there is no {} in the ranges", what);
+    text += std::isfinite(c.ball.room)
+                ? fmt::format("; at the radius {} the ball meets {}\n", rounded(c.ball.room, false), c.ball.end)
+                : "\n";
+  } else {
+    const std::string hi = n.upper ? rounded(*n.upper, true) : "unknown";
+    const bool ends_first = c.ball.room < n.lower;  // so no larger ball was searched as a whole
+    if (ends_first) {
+      text += fmt::format("radius {}: there the ball meets {}; it is proven that the ball holds no {}\n",
+                          rounded(c.ball.room, false), c.ball.end, what);
+      text += fmt::format("  it is proven that within the ranges no {} is nearer than {}\n", what, rounded(n.lower, false));
+    } else {
+      text += fmt::format("radius in [{}, {}]", rounded(n.lower, false), hi);
+      if (n.upper && n.lower > 0) text += fmt::format("   ({:.2g} %)", 100 * (*n.upper - n.lower) / *n.upper);
+      text += fmt::format("\n  it is proven that no {} is nearer than the lower bound\n", what);
+      if (std::isfinite(c.ball.room))
+        text += fmt::format("  at the radius {} the ball meets {}\n", rounded(c.ball.room, false), c.ball.end);
+    }
+    if (n.upper) {
+      text += fmt::format("  nearest {} found, proven to exist{}:\n", what,
+                          ends_first ? fmt::format(", at a distance of at most {}", hi) : "");
+      for (const CoordinateValue& v : c.values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+    } else {
+      text += fmt::format("  no {} is proven to exist\n", what);
+    }
+  }
+  if (!c.seemingly.empty()) {
+    text += fmt::format("  there seems to be one at the distance {:.6g}, which is not proven:\n", n.unproven_distance);
+    for (const auto& [name, value] : c.seemingly) text += fmt::format("    {} = {:.9g}\n", name, value);
+  }
+  if (c.ball.question.set && c.center == Clearance::Center::unknown)
+    text += "  it is neither proven nor excluded that the robot has a configuration at the centre\n";
+  return text + fmt::format("{} boxes processed, {:.3f} s\n", n.statistics.processed, c.seconds);
+}
+
+std::string to_json(const Clearance& c) {
+  const Nearest& n = c.nearest;
+  Json json = {{"model", c.ball.question.model.name()}, {"set", c.ball.set_name()}, {"at", Json::object()}};
+  for (const NamedValue& v : c.ball.center) json["at"][v.name] = v.value.text();
+  json["in"] = c.ball.names();
+  json["radius"] = {{"lo", finite(c.lower())}, {"hi", or_null(n.upper)}};
+  json["nearest"] = n.upper ? ends_of(c.values) : Json();
+  json["empty"] = n.empty;
+  json["room"] = finite(c.ball.room);
+  json["end"] = or_null(c.ball.end);
+  json["ball"] = finite(c.free_radius());
+  json["seemingly"] = nullptr;
+  if (!c.seemingly.empty()) {
+    json["seemingly"] = {{"distance", n.unproven_distance}, {"values", Json::object()}};
+    for (const auto& [name, value] : c.seemingly) json["seemingly"]["values"][name] = value;
+  }
+  constexpr std::array kCenters{"assembled", "not assembled", "unknown"};
+  json["center"] = kCenters.at(static_cast<std::size_t>(c.center));
+  json["complete"] = n.complete;
+  json["stopped"] = or_null(c.stopped);
+  json["precision"] = c.precision;
+  json["processed"] = n.statistics.processed;
+  json["seconds"] = c.seconds;
+  return json.dump(2);
+}
+
+std::string to_table(const Best& b) {
+  std::vector<std::string> region;
+  for (std::size_t k = 0; k < b.names.size(); ++k)
+    region.push_back(fmt::format("{} in [{:.6g}, {:.6g}]", b.names[k], b.region[k].lo(), b.region[k].hi()));
+  std::string text = fmt::format("{}, {}: the largest ball in {} with its centre in {}\n", b.ball.question.model.name(),
+                                 b.ball.set_name(), fmt::join(b.ball.names(), ", "), fmt::join(region, ", "));
+  const std::string what = b.ball.question.set ? "singularity" : "solution";
+  if (b.empty) {
+    text += fmt::format("it is proven that there is no {} in the ranges\n", what);
+  } else if (b.unassembled) {
+    text += "it is proven that the robot has no configuration with a centre in the region\n";
+  } else {
+    text += fmt::format("radius in [{}, {}]", rounded(b.lower, false), b.upper ? rounded(*b.upper, true) : "unknown");
+    if (b.upper && *b.upper > 0) text += fmt::format("   ({:.2g} %)", 100 * (*b.upper - b.lower) / *b.upper);
+    text += "\n";
+    if (b.center.empty()) text += "  no centre was found\n";
+    for (std::size_t k = 0; k < b.center.size(); ++k) text += fmt::format("  {} = {:.9g}\n", b.names[k], b.center[k]);
+    if (!b.nearest.empty()) text += fmt::format("  {} nearest to this centre, proven to exist:\n", what);
+    for (const CoordinateValue& v : b.nearest) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+  }
+  return text + fmt::format("{} cells, {} boxes processed, {:.3f} s\n", b.cells, b.processed, b.seconds);
+}
+
+std::string to_json(const Best& b) {
+  Json json = {{"model", b.ball.question.model.name()},
+               {"set", b.ball.set_name()},
+               {"in", b.ball.names()},
+               {"region", Json::object()},
+               {"radius", nullptr},
+               {"centre", nullptr},
+               {"nearest", nullptr}};
+  for (std::size_t k = 0; k < b.names.size(); ++k) json["region"][b.names[k]] = {b.region[k].lo(), b.region[k].hi()};
+  json["radius"] = {{"lo", b.lower}, {"hi", or_null(b.upper)}};
+  if (!b.center.empty()) json["centre"] = Json::object();
+  for (std::size_t k = 0; k < b.center.size(); ++k) json["centre"][b.names[k]] = b.center[k];
+  if (!b.nearest.empty()) json["nearest"] = ends_of(b.nearest);
+  json["empty"] = b.empty;
+  json["unassembled"] = b.unassembled;
+  json["complete"] = b.complete || b.empty;
+  json["stopped"] = or_null(b.stopped);
+  json["precision"] = b.precision;
+  json["cells"] = b.cells;
+  json["processed"] = b.processed;
+  json["seconds"] = b.seconds;
+  return json.dump(2);
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,369 @@
+#include "corank/analyze/maps/parameter_map.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <mutex>
+#include <tuple>
+#include <utility>
+
+#include "corank/analyze/aspects/aspects.h"
+#include "corank/analyze/sets/fold_system.h"
+#include "corank/analyze/topology/topology.h"
+#include "corank/core/box.h"
+#include "corank/core/check.h"
+#include "corank/core/rounding.h"
+#include "corank/core/threads.h"
+#include "corank/solve/reduction/reducer.h"
+#include "corank/solve/search/solve.h"
+#include "corank/solve/step/cell_search.h"
+#include "corank/symbolic/algebra/exact_value.h"
+
+namespace corank::analyze {
+namespace {
+
+using symbolic::ModelError;
+
+// As wide, in typical sizes, as a box next to a fold is left to the cell's parts, for a cell that is the whole region; at
+// most, for the narrowest cells; and where that does not do, at last. Measured, see bench/HISTORY.md.
+constexpr double kOpenShare = 4, kLastOpenShare = 0.1, kFinestOpenShare = 0.02;
+constexpr double kCentreShare = 1e-6;  // the same of a centre
+constexpr std::uint64_t kMostOfCell = 200'000, kMostOfLast = 50'000, kMostOfCentre = 4'000, kMostOfFolds = 200'000;
+constexpr std::size_t kMostRoots = 4;  // of a cell's boxes that are searched for folds each; more are one
+constexpr double kFoldWidth = 1;       // of a box of the curve, in edges of the narrowest cells
+
+const char* const kAnswers[] = {"solutions", "components", "aspects", "assembly-modes", "working-modes"};
+
+// The limits of one of several threads: its run ends when that of all does. Boxes are not limited.
+solve::Control::Limits as_of(const solve::Control& all) {
+  const solve::Control::Limits rest = all.rest(0, 0);
+  return {.time = rest.time, .stop = rest.stop, .clock = rest.clock};
+}
+
+Interval part_of(const Interval& side, int k, int n) {
+  const auto at = [&](int j) {
+    return j == 0 ? side.lo() : j == n ? side.hi() : side.lo() + (side.hi() - side.lo()) * j / n;
+  };
+  return {at(k), at(k + 1)};
+}
+
+}  // namespace
+
+const char* to_string(MapAnswer answer) { return kAnswers[static_cast<std::size_t>(answer)]; }
+
+std::optional<MapAnswer> map_answer_from_string(const std::string& text) {
+  for (std::size_t k = 0; k < std::size(kAnswers); ++k)
+    if (text == kAnswers[k]) return static_cast<MapAnswer>(k);
+  return std::nullopt;
+}
+
+struct ParameterMapper::Parts {
+  /// Of MapAnswer::solutions.
+  struct Family {
+    std::vector<int> parameters;  // of the reduced system
+    certify::Reduction reduction;
+    std::unique_ptr<const solve::Problem> problem;
+    int copies = 1;
+    std::optional<solve::Prepared> folds;
+  };
+
+  MapQuestion question;
+  ParameterMapOptions options;
+  Box region;
+  std::optional<Family> family;
+
+  /// Of a tile.
+  Box sides_of(int number) const {
+    return {part_of(region[0], number % kTiles, kTiles), part_of(region[1], number / kTiles, kTiles)};
+  }
+  int depth() const { return std::bit_width(static_cast<unsigned>(options.resolution / kTiles)) - 1; }
+  void make_family();
+  void make_folds();
+  MapTile count(int number, solve::Control& control) const;
+  MapTile sample(int number, solve::Control& control) const;
+  void divide(solve::CellSearch& search, solve::ParameterCell cell, int level, MapTile& tile, std::vector<Box>& roots,
+              solve::Control& control) const;
+  void find_folds(std::vector<Box> roots, MapTile& tile, solve::Control& control) const;
+  std::optional<int> answer_at(const Box& sides, solve::Control& control) const;
+  std::vector<MapSheet> sheets_of(const solve::ParameterCell& cell, const std::vector<std::size_t>& solutions) const;
+};
+
+void ParameterMapper::Parts::make_family() {
+  const symbolic::Mechanism& model = question.question.model;
+  const symbolic::SourceLocation place{model.name(), 0, 0};
+  const study::Question& q = question.question;
+  const auto [system, parameters, copies] =
+      symbolic::family_system(model, {q.set, q.kernel, q.corank, question.over, question.fixed});
+  Family& f = family.emplace();
+  f.copies = copies;
+  f.reduction = solve::reduce(system, solve::Eliminate::exact, {}, parameters);
+  for (const int p : parameters) {
+    const auto kept = std::ranges::find(f.reduction.kept, p);
+    CORANK_CHECK(kept != f.reduction.kept.end());
+    f.parameters.push_back(static_cast<int>(kept - f.reduction.kept.begin()));
+  }
+  const auto given = static_cast<int>(system.equations.size()),
+             unknowns = system.size() - static_cast<int>(parameters.size());
+  const auto reduced = static_cast<int>(f.reduction.system.equations.size());
+  if (f.reduction.consistent && reduced != f.reduction.system.size() - static_cast<int>(parameters.size()))
+    throw ModelError(place,
+                     "over fixed parameters " + std::to_string(given) + " equations have " + std::to_string(unknowns) +
+                         " unknowns: there is no number of solutions to count",
+                     "a set of isolated solutions, such as the configurations where all inputs are parameters or fixed");
+  f.problem = std::make_unique<solve::Problem>(system, f.reduction, [] { return false; });
+  if (options.boundary && f.reduction.consistent) make_folds();
+}
+
+void ParameterMapper::Parts::make_folds() {
+  const auto system = fold_system(family->reduction.system, family->parameters, family->problem->compiled.scales());
+  if (!system) return;
+  double edge = 0;
+  for (const Interval& side : region) edge = std::max(edge, side.width() / options.resolution);
+  solve::Control control;
+  family->folds = solve::prepare(*system, {.sigma = kFoldWidth * edge}, control);
+}
+
+ParameterMapper::ParameterMapper(MapQuestion question, const ParameterMapOptions& options) {
+  auto parts = std::make_unique<Parts>(Parts{std::move(question), options, {}, {}});
+  const MapQuestion& q = parts->question;
+  const symbolic::Mechanism& model = q.question.model;
+  const symbolic::SourceLocation place{model.name(), 0, 0};
+  if (q.over.size() != 2) throw ModelError(place, "a map has two parameters", "--over NAME=FROM:TO twice");
+  if (options.resolution < kTiles || options.resolution > 1024 ||
+      !std::has_single_bit(static_cast<unsigned>(options.resolution)))
+    throw ModelError(place, "a map's resolution is a power of two", "one of 8, 16, 32 … 1024");
+  for (const symbolic::Parameter& p : q.over) {
+    parts->region.push_back(Interval::hull(symbolic::exact_value(model, p.lower, p.name).enclose(),
+                                           symbolic::exact_value(model, p.upper, p.name).enclose()));
+  }
+  if (q.question.assembly) symbolic::check_conditions(model, q.question.assembly->conditions, q.over);
+  if (q.answer == MapAnswer::solutions) {
+    parts->make_family();
+  } else {
+    if (!q.fixed.empty()) throw ModelError(place, "only solutions are counted over fixed coordinates", "no --fix");
+    for (const symbolic::Parameter& p : q.over)
+      if (!model.has_constant(p.name))
+        throw ModelError(place, std::string(to_string(q.answer)) + " belong to all configurations together",
+                         "constants; " + p.name + " is not one");
+  }
+  parts_ = std::move(parts);
+}
+
+ParameterMapper::~ParameterMapper() = default;
+ParameterMapper::ParameterMapper(ParameterMapper&&) noexcept = default;
+
+MapTile ParameterMapper::tile(int number, solve::Control& control) const {
+  CORANK_CHECK(number >= 0 && number < tiles());
+  return parts_->family ? parts_->count(number, control) : parts_->sample(number, control);
+}
+
+MapTile ParameterMapper::Parts::count(int number, solve::Control& control) const {
+  MapTile tile{.number = number};
+  const Box sides = sides_of(number);
+  if (!family->reduction.consistent) {
+    tile.cells.push_back({sides, MapCellAnswer::Kind::proven, 0});
+    return tile;
+  }
+  std::vector<Box> roots;
+  {
+    const UpwardRounding rounding;
+    solve::CellSearch search(*family->problem, family->parameters);
+    divide(search, search.whole(sides, family->reduction.system.domain()), 0, tile, roots, control);
+    tile.processed = search.processed();
+  }
+  tile.boundary_known = family->folds.has_value();
+  if (family->folds && !roots.empty()) find_folds(std::move(roots), tile, control);
+  return tile;
+}
+
+void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterCell cell, int level, MapTile& tile,
+                                    std::vector<Box>& roots, solve::Control& control) const {
+  const bool last = level == depth();
+  const double share = 1.0 / (kTiles << level);
+  bool finished =
+      search.refine(cell, last ? std::min(kLastOpenShare, kOpenShare * share) : kOpenShare * share, kMostOfCell, control);
+  auto solutions = search.solutions(cell);
+  if (last && finished && !solutions) {
+    finished = search.refine(cell, kFinestOpenShare, kMostOfLast, control);
+    solutions = search.solutions(cell);
+  }
+  if (solutions) {
+    const auto count = static_cast<int>(solutions->size());
+    CORANK_CHECK(count % family->copies == 0);
+    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, count / family->copies});
+    if (options.certificate) tile.cells.back().sheets = sheets_of(cell, *solutions);
+    return;
+  }
+  if (!finished) {
+    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::pending});
+    return;
+  }
+  if (!last) {
+    for (int k = 0; k < 4; ++k) {
+      const Box part{part_of(cell.sides[0], k % 2, 2), part_of(cell.sides[1], k / 2, 2)};
+      divide(search, search.part(cell, part), level + 1, tile, roots, control);
+    }
+    return;
+  }
+  MapCellAnswer answer{cell.sides, MapCellAnswer::Kind::undecided};
+  solve::ParameterCell centre = search.part(cell, {Interval(cell.sides[0].mid()), Interval(cell.sides[1].mid())});
+  search.refine(centre, kCentreShare, kMostOfCentre, control);
+  if (const auto there = search.solutions(centre)) answer.at_centre = static_cast<int>(there->size()) / family->copies;
+  tile.cells.push_back(std::move(answer));
+  if (cell.open.size() > kMostRoots) {
+    for (std::size_t k = 1; k < cell.open.size(); ++k) include(cell.open[0], cell.open[k]);
+    cell.open.resize(1);
+  }
+  std::move(cell.open.begin(), cell.open.end(), std::back_inserter(roots));
+}
+
+// The eliminated variables' values follow from the others'.
+std::vector<MapSheet> ParameterMapper::Parts::sheets_of(const solve::ParameterCell& cell,
+                                                        const std::vector<std::size_t>& solutions) const {
+  const certify::Reduction& r = family->reduction;
+  const auto lifted = [&](const std::vector<Interval>& sides) {
+    Box box(r.kept.size() + r.definitions.size(), Interval::whole());
+    for (std::size_t j = 0; j < r.kept.size(); ++j) box[r.kept[j]] = sides[j];
+    return box;
+  };
+  std::vector<MapSheet> sheets;
+  for (const std::size_t k : solutions) sheets.push_back({lifted(cell.sheets[k].image), lifted(cell.sheets[k].region)});
+  return sheets;
+}
+
+void ParameterMapper::Parts::find_folds(std::vector<Box> roots, MapTile& tile, solve::Control& control) const {
+  solve::Prepared prepared = *family->folds;
+  for (Box& root : roots) {
+    for (std::size_t j = root.size(); j < prepared.system.variables.size(); ++j)
+      root.push_back(prepared.system.variables[j].domain);
+    prepared.options.roots.push_back(std::move(root));
+  }
+  solve::Control own(as_of(control));
+  const Cover cover = solve::solve(prepared, own, kMostOfFolds);
+  tile.processed += cover.statistics.processed;
+  tile.boundary_known = cover.complete();
+  for (const CoverBox& box : cover.boxes) {
+    Box sides;
+    for (const int p : family->parameters) sides.push_back(box.box[p]);
+    const bool proven = box.verdict == Verdict::regular || box.verdict == Verdict::boundary || box.verdict == Verdict::exact;
+    tile.boundary.push_back({std::move(sides), proven});
+  }
+}
+
+MapTile ParameterMapper::Parts::sample(int number, solve::Control& control) const {
+  MapTile tile{.number = number};
+  const int across = options.resolution / kTiles;
+  const Box sides = sides_of(number);
+  for (int k = 0; k < across * across; ++k) {
+    MapCellAnswer cell{{part_of(sides[0], k % across, across), part_of(sides[1], k / across, across)}};
+    if (!control.ended()) {
+      cell.at_centre = answer_at(cell.sides, control);
+      if (!control.ended()) cell.kind = MapCellAnswer::Kind::centre;
+    }
+    tile.cells.push_back(std::move(cell));
+  }
+  return tile;
+}
+
+std::optional<int> ParameterMapper::Parts::answer_at(const Box& sides, solve::Control& control) const {
+  study::Question at = question.question;
+  std::vector<result::ConstantOverride> constants;
+  for (std::size_t k = 0; k < 2; ++k)
+    constants.push_back({question.over[k].name, ExactNumber::dyadic(sides[k].mid()).text()});
+  result::put_in(constants, at.model);
+  solve::Control own(as_of(control));
+  if (question.answer == MapAnswer::components) {
+    const Components found = topology(at, {}, own).components;
+    return found.exact() ? std::optional(found.at_least) : std::nullopt;
+  }
+  const Aspects found = aspects(at, {}, own);
+  const Pieces& pieces = question.answer == MapAnswer::aspects          ? found.aspects
+                         : question.answer == MapAnswer::assembly_modes ? found.assembly_modes
+                                                                        : found.working_modes;
+  return found.reason.empty() && pieces.exact() ? std::optional(pieces.at_least) : std::nullopt;
+}
+
+ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
+  const Parts& p = *parts_;
+  ParameterMap map;
+  map.model = p.question.question.model.name();
+  map.set = p.question.question.set ? symbolic::to_string(*p.question.question.set) : "system";
+  map.answer = p.question.answer;
+  for (const symbolic::Parameter& over : p.question.over) map.names.push_back(over.name);
+  map.region = p.region;
+  for (const symbolic::FixedCoordinate& f : p.question.fixed) map.fixed.emplace_back(f.name, f.value.text());
+  map.resolution = p.options.resolution;
+  std::vector<bool> there(ParameterMapper::tiles(), false);
+  map.boundary_known = p.family.has_value();
+  for (MapTile& tile : tiles) {
+    CORANK_CHECK(!there.at(tile.number));
+    there[tile.number] = true;
+    std::move(tile.cells.begin(), tile.cells.end(), std::back_inserter(map.cells));
+    std::move(tile.boundary.begin(), tile.boundary.end(), std::back_inserter(map.boundary));
+    map.processed += tile.processed;
+    map.boundary_known = map.boundary_known && tile.boundary_known;
+  }
+  for (int k = 0; k < ParameterMapper::tiles(); ++k)
+    if (!there[k]) map.cells.push_back({p.sides_of(k)});
+  const auto key = [](const Box& b) { return std::tuple(b[1].lo(), b[0].lo(), b[1].hi(), b[0].hi()); };
+  std::ranges::sort(map.cells, [&](const auto& a, const auto& b) { return key(a.sides) < key(b.sides); });
+  std::ranges::sort(map.boundary, [&](const auto& a, const auto& b) {
+    return std::tuple(key(a.sides), a.proven) < std::tuple(key(b.sides), b.proven);
+  });
+  map.complete =
+      std::ranges::none_of(map.cells, [](const MapCellAnswer& c) { return c.kind == MapCellAnswer::Kind::pending; });
+  map.boundary_known = map.boundary_known && map.complete;
+  if (p.options.certificate && p.family) {
+    map.claims.emplace().reduction = p.family->reduction.steps;
+    for (MapCellAnswer& c : map.cells)
+      if (c.kind == MapCellAnswer::Kind::proven)
+        map.claims->cells.push_back({c.sides, c.count.value(), std::exchange(c.sheets, {})});
+  }
+  return map;
+}
+
+double ParameterMap::share_of(const MapCellAnswer& cell) const {
+  return cell.sides[0].width() * cell.sides[1].width() / (region[0].width() * region[1].width());
+}
+
+std::map<int, double> ParameterMap::shares() const {
+  std::map<int, double> shares;
+  for (const MapCellAnswer& c : cells)
+    if (const auto& count = c.kind == MapCellAnswer::Kind::centre ? c.at_centre : c.count) shares[*count] += share_of(c);
+  return shares;
+}
+
+double ParameterMap::proven_share() const {
+  double share = 0;
+  for (const MapCellAnswer& c : cells)
+    if (c.kind == MapCellAnswer::Kind::proven) share += share_of(c);
+  return share;
+}
+
+ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOptions& options, solve::Control& control) {
+  const auto start = std::chrono::steady_clock::now();
+  const ParameterMapper mapper(question, options);
+  const solve::InStage stage(control, solve::Stage::search);
+  std::vector<MapTile> tiles;
+  std::mutex mutex;
+  ThreadArena arena(options.threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        0, ParameterMapper::tiles(), 1,
+        [&](int number) {
+          if (control.ended()) return;
+          MapTile tile = mapper.tile(number, control);
+          const std::lock_guard lock(mutex);
+          tiles.push_back(std::move(tile));
+          if (options.progress) options.progress(tiles.size(), ParameterMapper::tiles());
+        },
+        tbb::simple_partitioner());
+  });
+  ParameterMap map = mapper.assemble(std::move(tiles));
+  map.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return map;
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,353 @@
+#include "corank/analyze/pieces/pieces.h"
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <map>
+#include <set>
+
+#include "corank/core/box.h"
+#include "corank/core/box_tree.h"
+#include "corank/core/rounding.h"
+#include "corank/solve/step/problem.h"
+
+namespace corank::analyze {
+namespace {
+
+using Signs = std::vector<int>;
+
+// Parts of cells, joined to pieces.
+class PieceCounter {
+ public:
+  PieceCounter(SignCells& cells, solve::Control& control)
+      : cells_(cells), test_(cells.system()), control_(control), tree_(box_tree(cells.cells(), &SignCell::sides)) {
+    add_parts();
+  }
+
+  Pieces count() {
+    Pieces result;
+    result.cells = cells_.cells().size();
+    if (cells_.cells().empty()) {
+      result.at_most = 0;
+      return result;
+    }
+    proven_ = boost::disjoint_sets_with_storage<>(parts_.size());
+    for (std::size_t c = 0; c < cells_.cells().size() && !control_.ended(); ++c) {
+      join_over_border(c);
+      control_.report(c, cells_.cells().size());
+    }
+    join_touching();
+    join_at_ends();
+    keep_proof(result.proof);
+    upper_bound(result);
+    lower_bound(result);
+    return result;
+  }
+
+ private:
+  enum class Kind { connected, passage, unknown };
+  struct Part {
+    std::size_t cell;
+    Signs signs;
+    Kind kind;
+    bool holds_solution;  // proven
+    std::optional<Box> solution{};
+  };
+
+  const SignCell& cell_of(std::size_t part) const { return cells_.cells()[parts_[part].cell]; }
+
+  void add_parts() {
+    const UpwardRounding rounding;
+    part_of_.resize(cells_.cells().size());
+    for (std::size_t c = 0; c < cells_.cells().size(); ++c) {
+      const SignCell& cell = cells_.cells()[c];
+      if (!cell.mixed.empty() && control_.ended()) {
+        crowded_ = true;
+        continue;
+      }
+      const std::vector<Signs> choices = cells_.choices(cell);
+      crowded_ = crowded_ || choices.empty();
+      for (const Signs& signs : choices) {
+        int part = 0;
+        if (cell.mixed.empty()) part = 1;
+        if (cell.mixed.size() == 1) part = cells_.part_of_one(cell, signs[cell.mixed.front()]);
+        if (part == 0) part = cells_.part_by_outflow(cell, signs);
+        if (part < 0) continue;
+        part_of_[c].emplace(signs, parts_.size());
+        parts_.push_back({c, signs, part > 0 ? Kind::connected : cell.resolved ? Kind::passage : Kind::unknown, part > 0});
+      }
+    }
+  }
+
+  bool is_in(const Box& point, std::size_t c) const {
+    const SignCell& cell = cells_.cells()[c];
+    return contains(cells_.region(cell), point) && contains_over(cell.free, cell.sides, point);
+  }
+
+  // All parts that hold the point, a solution over values of the variables `held`, are of one piece. Those of cells that end
+  // there, but for rounding, may be.
+  void join_at(const Box& point, const std::vector<int>& held) {
+    constexpr double kRounding = 1e-9;
+    const Signs signs = cells_.signs(point);
+    if (std::ranges::find(signs, 0) != signs.end()) return;
+    std::optional<std::size_t> first;
+    std::vector<std::size_t> near;
+    Box around = point;
+    for (std::size_t j = 0; j < around.size(); ++j)
+      around[j] += Interval(-kRounding, kRounding) * Interval(cells_.system().variables[j].size);
+    tree_.for_each_overlapping(around, 0, [&](std::size_t c) {
+      const auto part = part_of_[c].find(signs);
+      if (part == part_of_[c].end()) return;
+      Part& p = parts_[part->second];
+      const bool inside = is_in(point, c);
+      if (inside) p.holds_solution = true;
+      if (inside && !p.solution) p.solution = point;
+      if (p.kind != Kind::connected) return;
+      if (!inside) {
+        near.push_back(part->second);
+        return;
+      }
+      if (first && proven_.find_set(*first) != proven_.find_set(part->second)) {
+        proven_.union_set(*first, part->second);
+        joined_.push_back({*first, part->second, {link(point, held)}, {}});
+      }
+      first = part->second;
+    });
+    if (!first) return;
+    for (const std::size_t q : near)
+      if (proven_.find_set(*first) != proven_.find_set(q)) ends_.push_back({*first, q, point});
+  }
+
+  // Points on the border of X_F: the middles of its faces and, where a function is mixed, its corners and a row of points
+  // on each face.
+  void join_over_border(std::size_t c) {
+    const UpwardRounding rounding;
+    const SignCell& cell = cells_.cells()[c];
+    const std::vector<int>& frees = cell.free;
+    std::vector<double> along{0.5};
+    if (!cell.mixed.empty() && frees.size() > 1) along = {0.5, 0, 0.02, 0.1, 0.3, 0.7, 0.9, 0.98, 1};
+    Box at = cell.sides;
+    for (std::size_t face = 0; face < frees.size(); ++face)
+      for (const bool upper : {false, true})
+        for (const double share : along) {
+          for (std::size_t f = 0; f < frees.size(); ++f) {
+            const Interval& side = cell.sides[frees[f]];
+            const double inside = std::clamp(side.lo() + share * (side.hi() - side.lo()), side.lo(), side.hi());
+            at[frees[f]] = Interval(f != face ? inside : upper ? side.hi() : side.lo());
+          }
+          join_at(cells_.solution_over(cell, at), frees);
+        }
+  }
+
+  // Where two cells end at one point, a small piece about it may meet both.
+  void join_at_ends() {
+    constexpr int kTries = 8;  // for two pieces
+    const UpwardRounding rounding;
+    std::map<std::pair<std::size_t, std::size_t>, int> tries;
+    for (const End& end : ends_) {
+      const std::size_t a = proven_.find_set(end.part), b = proven_.find_set(end.other);
+      if (a == b || control_.ended() || ++tries[std::minmax(a, b)] > kTries) continue;
+      for (const double radius : {1e-3, 1e-5, 1e-7}) {
+        const certify::Sheet piece = test_.sheet_about(end.point, radius);
+        if (!piece.proven || cells_.signs(piece.region) != parts_[end.part].signs) continue;
+        const std::optional<PieceLink> here = meeting(piece.region, cell_of(end.part));
+        const std::optional<PieceLink> there = meeting(piece.region, cell_of(end.other));
+        if (!here || !there) continue;
+        proven_.union_set(end.part, end.other);
+        joined_.push_back({end.part, end.other, {*here, *there}, SheetBridge{free_of(piece), piece.region}});
+        break;
+      }
+    }
+  }
+
+  static constexpr int kFewestInRow = 4;
+
+  // Connected parts of like signs that touch and are not joined yet: points of the one's X_F next to the other, more and
+  // more of them.
+  void join_touching() {
+    constexpr int kRows = 4;
+    for (int row = 0; row < kRows; ++row)
+      for_each_pair([&](std::size_t p, std::size_t q) {
+        if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected) return;
+        const UpwardRounding rounding;
+        for (const auto& [from, to] : {std::pair(p, q), std::pair(q, p)})
+          if (proven_.find_set(p) != proven_.find_set(q))
+            join_next_to(parts_[from].cell, parts_[to].cell, kFewestInRow << row);
+      });
+  }
+
+  // At `count` + 1 points along each free side that the cells share, those on the other free sides' ends and middles. Half
+  // of the points were tried with half of the count.
+  void join_next_to(std::size_t c, std::size_t d, int count) {
+    const SignCell& cell = cells_.cells()[c];
+    Box near = cell.sides, at = cell.sides;
+    if (!intersect(near, cells_.cells()[d].sides)) return;
+    std::vector<int> shared;  // where the cells have more in common than a point
+    for (const int f : cell.free)
+      if (near[f].width() > 0) shared.push_back(f);
+    const auto join_over = [&](int along, double share, double others) {
+      for (const int f : cell.free)
+        at[f] =
+            Interval(std::clamp(near[f].lo() + (f == along ? share : others) * near[f].width(), near[f].lo(), near[f].hi()));
+      join_at(cells_.solution_over(cell, at), cell.free);
+    };
+    const bool first = count == kFewestInRow;
+    if (shared.empty() && first) join_over(-1, 0, 0);
+    for (const int along : shared)
+      for (int k = first ? 0 : 1; k <= count; k += first ? 1 : 2)
+        for (const double others : {0.0, 0.5, 1.0}) {
+          join_over(along, static_cast<double>(k) / count, others);
+          if (shared.size() == 1) break;
+        }
+  }
+
+  // A solution that is proven to be in the piece and in the cell.
+  std::optional<PieceLink> meeting(const Box& piece, const SignCell& cell) {
+    Box common = cells_.region(cell);
+    for (const int f : cell.free) common[f] = cell.sides[f];
+    if (!intersect(common, piece)) return std::nullopt;
+    const std::optional<certify::Sheet> at = test_.sheet_in(common, common);
+    return at ? std::optional(link(at->image, free_of(*at))) : std::nullopt;
+  }
+
+  static PieceLink link(const Box& point, const std::vector<int>& held) { return {midpoint(point), held}; }
+
+  std::vector<int> free_of(const certify::Sheet& sheet) const {
+    return solve::other_variables(sheet.dependent, cells_.system().size());
+  }
+
+  // Of the links those that join what cells of one sheet do not join by themselves: where one of two that meet is all of one
+  // part, no solution needs to be named.
+  void keep_proof(PieceProof& proof) {
+    const auto sides = [&](const std::vector<int>& free, const Box& box) {
+      std::vector<Interval> result;
+      for (const int f : free) result.push_back(box[f]);
+      return result;
+    };
+    const std::vector<CoverBox>& boxes = cells_.cover().boxes;
+    for (std::size_t b = cells_.given(); b < boxes.size(); ++b)
+      proof.bridges.push_back({boxes[b].free, cells_.cover().regions[boxes[b].region]});
+    for (const SignCell& cell : cells_.cells()) proof.cells.push_back({cell.box, sides(cell.free, cell.sides)});
+    boost::disjoint_sets_with_storage<> known(parts_.size());
+    for_each_pair([&](std::size_t p, std::size_t q) {
+      const SignCell &a = cell_of(p), &b = cell_of(q);
+      if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected || a.box != b.box) return;
+      if (!a.mixed.empty() && !b.mixed.empty()) return;
+      if (std::ranges::all_of(a.free, [&](int f) { return a.sides[f].overlaps(b.sides[f]); })) known.union_set(p, q);
+    });
+    for (const Joined& joined : joined_) {
+      if (known.find_set(joined.part) == known.find_set(joined.other)) continue;
+      known.union_set(joined.part, joined.other);
+      proof.links.insert(proof.links.end(), joined.links.begin(), joined.links.end());
+      if (!joined.bridge) continue;
+      proof.cells.push_back(
+          {static_cast<int>(cells_.given() + proof.bridges.size()), sides(joined.bridge->free, joined.bridge->region)});
+      proof.bridges.push_back(*joined.bridge);
+    }
+  }
+
+  // Parts of like signs in cells that touch.
+  template <class Visit>
+  void for_each_pair(const Visit& visit) {
+    for (std::size_t c = 0; c < cells_.cells().size() && !control_.ended(); ++c)
+      tree_.for_each_overlapping(cells_.cells()[c].sides, 0.0, [&](std::size_t d) {
+        if (d <= c) return;
+        for (const auto& [signs, part] : part_of_[c])
+          if (const auto other = part_of_[d].find(signs); other != part_of_[d].end()) visit(part, other->second);
+      });
+  }
+
+  void upper_bound(Pieces& result) {
+    bool hidden = control_.ended();
+    const auto unresolved = std::ranges::count_if(cells_.cells(), [](const SignCell& cell) { return !cell.resolved; });
+    if (unresolved > 0) {
+      result.reason = std::to_string(unresolved) + " cells next to singularities that are not resolved";
+      return;
+    }
+    // Passages that touch: a piece may hide in them together, but where they share a direction.
+    boost::disjoint_sets_with_storage<> clusters(parts_.size());
+    for_each_pair([&](std::size_t p, std::size_t q) {
+      if (parts_[p].kind == Kind::passage && parts_[q].kind == Kind::passage) clusters.union_set(p, q);
+    });
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (parts_[p].kind == Kind::passage) members[clusters.find_set(p)].push_back(p);
+    for (const auto& [root, list] : members) {
+      std::vector<std::size_t> cells;
+      for (const std::size_t p : list) cells.push_back(parts_[p].cell);
+      const Signs& signs = parts_[list.front()].signs;  // of all of them
+      const auto choice = [&](std::size_t c) { return cells_.choice(cells_.cells()[c], signs); };
+      if (cells_.common_directions(cells, choice) == 0) hidden = true;
+    }
+    std::set<std::size_t> classes;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (parts_[p].kind == Kind::connected) classes.insert(proven_.find_set(p));
+    if (!hidden) result.at_most = static_cast<int>(classes.size());
+    if (hidden) result.reason = "cells about a crossing of singularity loci in which a piece might hide";
+  }
+
+  void lower_bound(Pieces& result) {
+    boost::disjoint_sets_with_storage<> classes(parts_.size());
+    std::map<std::size_t, std::size_t> first;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      classes.union_set(p, first.emplace(proven_.find_set(p), p).first->second);
+    for_each_pair([&](std::size_t p, std::size_t q) { classes.union_set(p, q); });
+    std::map<std::size_t, std::size_t> known;  // a part of each class, one without mixed functions where there is one
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (!parts_[p].holds_solution) continue;
+      const auto [place, fresh] = known.emplace(classes.find_set(p), p);
+      if (!fresh && cell_of(p).mixed.size() < cell_of(place->second).mixed.size()) place->second = p;
+    }
+    if (control_.ended() || crowded_) {
+      // What was not joined yet may be one piece: one of them is shown.
+      if (control_.ended()) result.reason = "the analysis was ended by a limit";
+      if (control_.ended() && known.size() > 1) known.erase(std::next(known.begin()), known.end());
+      result.at_least = known.empty() ? 0 : 1;
+    } else {
+      result.at_least = static_cast<int>(known.size());
+    }
+    if (result.at_most && !result.exact()) result.reason = "links or gaps between cells that could not be shown";
+    const UpwardRounding rounding;
+    std::map<std::size_t, int> numbers;
+    for (const auto& [root, p] : known) numbers.emplace(root, static_cast<int>(numbers.size()));
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (const auto n = numbers.find(classes.find_set(p)); n != numbers.end())
+        result.parts.push_back({parts_[p].cell, parts_[p].signs, n->second});
+    for (const auto& [root, p] : known) {
+      const SignCell& cell = cell_of(p);
+      const std::optional<Box> point =
+          cell.mixed.empty() ? cells_.solution_over_middle(cell, cell.sides) : parts_[p].solution;
+      result.representatives.push_back(point.value_or(cell.sides));
+      result.free.push_back(cell.free);
+      result.signs.emplace_back(parts_[p].signs.begin(), parts_[p].signs.end() - cells_.limits());
+    }
+  }
+
+  struct End {
+    std::size_t part, other;
+    Box point;
+  };
+
+  // Two parts, why they are of one piece, and by which sheet of its own, if any.
+  struct Joined {
+    std::size_t part, other;
+    std::vector<PieceLink> links;
+    std::optional<SheetBridge> bridge;
+  };
+
+  SignCells& cells_;
+  certify::MeetingTest test_;
+  solve::Control& control_;
+  BoxTree tree_;  // of the cells
+  std::vector<Part> parts_;
+  std::vector<std::map<Signs, std::size_t>> part_of_;  // of each cell
+  std::vector<End> ends_;
+  std::vector<Joined> joined_;
+  bool crowded_ = false;  // some cell's parts are not even listed
+  boost::disjoint_sets_with_storage<> proven_;
+};
+
+}  // namespace
+
+Pieces pieces(SignCells& cells, solve::Control& control) { return PieceCounter(cells, control).count(); }
+
+}  // namespace corank::analyze

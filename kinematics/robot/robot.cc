@@ -1,0 +1,81 @@
+#include "corank/kinematics/robot/robot.h"
+
+#include <algorithm>
+
+namespace corank::kinematics {
+namespace {
+
+template <typename Named>
+int find(const std::vector<Named>& list, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const Named& item) { return item.name == name; });
+  return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+}
+
+}  // namespace
+
+std::span<const JointTraits> joint_traits() {
+  using enum JointKind;
+  static constexpr std::array<JointTraits, 11> kTraits{{{revolute, "revolute", 1, 1, true, true},
+                                                        {prismatic, "prismatic", 1, 1, true},
+                                                        {cylindrical, "cylindrical", 2, 2, true, true},
+                                                        {universal, "universal", 2, 2, true, true},
+                                                        {spherical, "spherical", 3, 1},
+                                                        {planar, "planar", 3, 0, true},
+                                                        {parallelogram, "parallelogram", 1, 1, true, true},
+                                                        {fixed, "fix", 0},
+                                                        {distance, "sph_sph", 5},
+                                                        {distance_variable, "sph_prs_sph", 6, 1},
+                                                        {universal_rod, "uni_prs_uni", 5, 1, true}}};
+  return kTraits;
+}
+
+const JointTraits& traits(JointKind kind) { return *std::ranges::find(joint_traits(), kind, &JointTraits::kind); }
+
+bool Robot::is_coupled(std::size_t joint) const {
+  return std::ranges::any_of(couplings, [&](const Coupling& c) { return c.driver == joint || c.follower == joint; });
+}
+
+bool Robot::is_output(std::size_t joint) const {
+  return std::ranges::any_of(outputs, [&](const Output& o) { return o.kind == Output::Kind::joint && o.joint == joint; });
+}
+
+int Robot::find_link(const std::string& link) const { return find(links, link); }
+int Robot::find_joint(const std::string& joint) const { return find(joints, joint); }
+
+std::size_t Robot::link(const std::string& link_name) {
+  const int index = find_link(link_name);
+  if (index >= 0) return index;
+  links.push_back({link_name, {}, {}});
+  return links.size() - 1;
+}
+
+Joint& Robot::join(JointKind kind, const std::string& joint_name, const std::string& first, const Vector& point,
+                   const Vector& axis, const std::string& second, const Vector& second_point, const Vector& second_axis) {
+  Joint joint;
+  joint.name = joint_name;
+  joint.kind = kind;
+  joint.ends = {JointEnd{link(first), point, axis, {}}, JointEnd{link(second), second_point, second_axis, {}}};
+  joint.is_named = true;
+  return joints.emplace_back(std::move(joint));
+}
+
+Joint& Robot::revolute(const std::string& joint_name, const std::string& first, const Vector& point, const Vector& axis,
+                       const std::string& second, const Vector& second_point, const Vector& second_axis) {
+  return join(JointKind::revolute, joint_name, first, point, axis, second, second_point, second_axis);
+}
+
+Joint& Robot::rod(const std::string& joint_name, const std::string& first, const Vector& point, const std::string& second,
+                  const Vector& second_point, const std::optional<Expression>& length) {
+  Joint& joint = join(length ? JointKind::distance : JointKind::distance_variable, joint_name, first, point, {0, 0, 0},
+                      second, second_point, {0, 0, 0});
+  if (length) joint.length = *length;
+  return joint;
+}
+
+Joint& Robot::fix(const std::string& first, const std::string& second, const Pose& pose) {
+  Joint& joint = join(JointKind::fixed, first + "_" + second, first, {0, 0, 0}, {0, 0, 0}, second, {0, 0, 0}, {0, 0, 0});
+  joint.pose = pose;
+  return joint;
+}
+
+}  // namespace corank::kinematics

@@ -1,0 +1,41 @@
+#include "corank/kinematics/urdf/urdf.h"
+
+#include <algorithm>
+
+#include "corank/kinematics/language/part_file.h"
+#include "corank/kinematics/urdf/urdf_reading.h"
+#include "corank/symbolic/model/model_file.h"
+
+namespace corank::kinematics {
+namespace {
+
+// The companion's inputs stand for those of the transmissions, where it has some.
+void add_loops(Robot& robot, const UrdfLoops& loops) {
+  std::vector<std::size_t> driven;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    if (robot.joints[i].actuated) driven.push_back(i);
+    robot.joints[i].actuated = false;
+  }
+  parse_more(robot, loops.text, loops.file);
+  if (std::any_of(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.actuated; })) return;
+  for (const std::size_t i : driven) robot.joints[i].actuated = true;
+}
+
+}  // namespace
+
+Robot parse_urdf(std::string_view text, const std::string& file, const std::optional<UrdfLoops>& loops) {
+  Robot robot = read_urdf_tree(text, file, loops.has_value());
+  if (loops) add_loops(robot, *loops);
+  if (std::none_of(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.actuated; }))
+    robot.notices.push_back("no <transmission> says which joints are actuated; list them in [INPUTS] of a .loops file");
+  robot.validate();
+  return robot;
+}
+
+Robot read_urdf(const std::filesystem::path& urdf, const std::optional<std::filesystem::path>& loops) {
+  const std::string text = symbolic::read_text(urdf);
+  if (!loops) return parse_urdf(text, urdf.string());
+  return parse_urdf(text, urdf.string(), UrdfLoops{symbolic::read_text(*loops), loops->string()});
+}
+
+}  // namespace corank::kinematics

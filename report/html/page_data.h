@@ -1,0 +1,29 @@
+// What the scripts of a report's page read: the model as JSON. Each result's boxes are those that are drawn
+// (SetView::drawn), all of them, in the result's order.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "corank/report/html/set_view.h"
+#include "corank/symbolic/velocity/velocity_equation.h"
+
+namespace corank::report {
+
+/// Constants in doubles: for pictures, not for proofs.
+using ConstantValues = std::map<std::string, double>;
+ConstantValues constant_values(const symbolic::Mechanism& mechanism);
+
+/// JSON that may stand inside <script>: without "<", since "</script" ends one and "<!--<script" makes the next end not
+/// count.
+std::string script_safe(std::string json);
+
+/// CSS: --set-NAME, a set's colour; for elements of the class NAME it is --set, and --swatch that of a small area.
+std::string set_style();
+
+/// The coordinates, the drawing and each set with its variables, equations and points: one JSON object.
+std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                       const std::vector<SetView>& views);
+
+}  // namespace corank::report

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include "corank/report/html/page.h"
+#include "corank/report/html/page_words.h"
+#include "corank/result/files/verification.h"
+#include "corank/result/values/words.h"
+#include "corank/symbolic/model/display_name.h"
+#include "corank/symbolic/sets/singularity_system.h"
+#include "corank/symbolic/writing/mathml.h"
+
+namespace corank::report {
+namespace {
+
+using symbolic::math;
+using symbolic::mathml;
+
+std::string numbered(const std::vector<std::string>& equations, const std::vector<std::string>& sources) {
+  std::string html = "<ol class=\"equations\">";
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    html += "<li>" + math(equations[i]);
+    if (i < sources.size() && !sources[i].empty())
+      html += "<span class=\"source\">" + symbolic::html_text(sources[i]) + "</span>";
+    html += "</li>";
+  }
+  return html + "</ol>";
+}
+
+std::string symbol(const std::string& base, const std::string& subscript) {
+  if (subscript.empty()) return "<mi>" + base + "</mi>";
+  return "<msub><mi>" + base + "</mi><mi>" + subscript + "</mi></msub>";
+}
+
+std::string matrix_html(const std::string& base, const std::string& subscript, const std::string& words,
+                        const symbolic::ExpressionMatrix& matrix) {
+  const std::string columns = names_html(matrix.columns);
+  return fmt::format(
+      "<figure class=\"matrix\"><figcaption>{} · columns {}</figcaption><div class=\"scroll\">{}</div></figure>", words,
+      columns.empty() ? "none" : columns, math(symbol(base, subscript) + "<mo>=</mo>" + mathml(matrix)));
+}
+
+std::string system_html(const symbolic::TrigonometricSystem& system, const SetView& view) {
+  const std::string& kernel = view.result.options.kernel;
+  std::vector<std::string> equations, sources;
+  for (const auto* list : {&system.equations, &system.inequalities}) {
+    for (const auto& equation : *list) {
+      equations.push_back(mathml(equation.relation));
+      sources.push_back(equation.source);
+    }
+  }
+  return fmt::format("<details><summary>{}: {}{}</summary><div class=\"scroll\">{}</div></details>", view.words.title,
+                     result::counted(system.equations.size(), "equation"),
+                     kernel.empty() ? "" : ", " + symbolic::html_text(kernel) + " kernel", numbered(equations, sources));
+}
+
+std::string union_html(const SetView& view) {
+  std::string list;
+  for (const result::Result& part : view.result.parts) {
+    const std::size_t equals = part.condition.rfind(" = ");
+    const std::string name = symbolic::html_text(part.part);
+    list += equals == std::string::npos ? "<li>" + name + ": singular, with a kernel vector of its own</li>"
+                                        : fmt::format("<li>{}<span class=\"source\">{}</span></li>",
+                                                      math(mathml(symbolic::Expression(part.condition.substr(0, equals)) ==
+                                                                  symbolic::Expression(part.condition.substr(equals + 3)))),
+                                                      part.part == part.condition ? "" : name);
+  }
+  return fmt::format(
+      "<details><summary>{}: the union of {} parts</summary><p>The assembly constraints and one of these "
+      "equations, in which the determinant of the block above factors:</p><div class=\"scroll\"><ol "
+      "class=\"equations\">{}</ol></div></details>",
+      view.words.title, view.result.parts.size(), list);
+}
+
+}  // namespace
+
+std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                            const std::vector<SetView>& views) {
+  std::string html = "<h3>Assembly constraints " +
+                     math("<mi mathvariant=\"normal\">Φ</mi><mo>(</mo><mi>q</mi><mo>)</mo><mo>=</mo><mn>0</mn>") + "</h3>";
+  std::vector<std::string> phi;
+  for (const symbolic::Expression& e : derivation.phi) phi.push_back(mathml(e == symbolic::Expression(0)));
+  html += "<div class=\"scroll\">" + numbered(phi, {}) + "</div><h3>" +
+          std::string(derivation.velocity.given ? "Velocity equation and its blocks" : "Jacobian blocks") + "</h3>";
+  if (derivation.velocity.given) {
+    html += matrix_html("L", "", "given by the model, in rates of its own", derivation.velocity.matrix);
+  } else {
+    html += matrix_html("Φ", "q", "all coordinates", derivation.velocity.matrix);
+  }
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
+    if (!set.locked.empty() && set.is_usual())
+      html += matrix_html(
+          "L", set.matrix + 2,
+          fmt::format("without the {}s; rank deficient at {} singularities", to_string(set.locked.front()), set.name),
+          derivation.velocity.without(set.locked));
+  html +=
+      "<h3>Systems solved</h3><p>In the search, the cosine c and the sine s of an angle are variables of their own, with "
+      "the equation c² + s² = 1.</p>";
+  for (const SetView& view : views)
+    html += view.result.parts.empty() || view.set->of_parts
+                ? system_html(result::equations_of(mechanism, view.set->set.value(), view.result.options), view)
+                : union_html(view);
+  return html;
+}
+
+}  // namespace corank::report

@@ -1,0 +1,31 @@
+// A result as pages and pictures show it: with what it takes to do so, made once.
+#pragma once
+
+#include "corank/core/system.h"
+#include "corank/report/html/page_words.h"
+#include "corank/report/pictures/components.h"
+#include "corank/result/values/result.h"
+#include "corank/symbolic/model/set_definition.h"
+
+namespace corank::report {
+
+struct SetView {
+  result::Result result;
+  const symbolic::SetDefinition* set;  ///< of result.set
+  System system;                       ///< that was solved
+  Components components;
+  SetWords words;
+  std::vector<CoverBox> hulls;  ///< drawn in place of boxes that are too many (drawn_boxes.h); else empty
+
+  const std::vector<CoverBox>& drawn() const { return hulls.empty() ? result.cover.boxes : hulls; }
+};
+
+/// Of a result and the system that was solved; whether its velocity equation is given changes words.
+SetView set_view(result::Result result, System system, bool given_velocity_equation, const Ended& ended = {});
+/// The same with the components, found before.
+SetView set_view(result::Result result, System system, bool given_velocity_equation, Components found);
+/// The same of a result that was read. Throws ResultFileError where it is none of this mechanism: its variables differ from
+/// those of the mechanism's set.
+SetView set_view(const symbolic::Mechanism& mechanism, result::Result result);
+
+}  // namespace corank::report

@@ -1,0 +1,384 @@
+#include "corank/result/files/verification.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "corank/result/files/hdf5_file.h"
+#include "corank/result/values/sentences.h"
+#include "corank/result/values/summary.h"
+#include "corank/result/values/words.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/set_parts.h"
+#include "corank/symbolic/sets/velocity_blocks.h"
+#include "corank/symbolic/writing/printer.h"
+
+namespace corank::result {
+namespace {
+using check::Failure;
+using check::Report;
+using check::Tally;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kShownFailures = 10;
+
+std::string without_comments(const std::string& text) {
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(std::min(line.find('%'), line.size()));
+    while (!line.empty() && line.back() == ' ') line.pop_back();
+    if (!line.empty()) result += line + "\n";
+  }
+  return result;
+}
+
+const char* word(Failure::Place place) {
+  switch (place) {
+    case Failure::Place::cover: return "cover";
+    case Failure::Place::box: return "box";
+    case Failure::Place::point: return "point";
+    case Failure::Place::exact_point: return "exact point";
+    case Failure::Place::step: return "step of the proof";
+  }
+  return "?";
+}
+
+bool any(const Tally& t) { return t.verified + t.failed + t.unchecked > 0; }
+
+std::string row(const std::string& name, const Tally& t) {
+  return any(t) ? fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", name, t.verified, t.failed, t.unchecked) : "";
+}
+
+std::string completeness(const Report& report, bool complete) {
+  const check::ProofTally& proof = report.proof;
+  if (!proof.present && (report.interrupted || report.left_out > 0)) return "";
+  if (!proof.present) return "completeness: no proof in the file\n";
+  std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched again\n",
+                                 proof.verified       ? "replayed"
+                                 : report.interrupted ? "not shown yet"
+                                                      : "NOT SHOWN",
+                                 proof.steps, proof.leaves, proof.searched);
+  if (proof.open)
+    text += "  it could not be shown next to a self-motion, where the equations say little; it may hold nevertheless\n";
+  if (proof.verified && !complete) text += "  except for the pending boxes: the search ended early\n";
+  return text;
+}
+
+// Decimals are not proven anew; but those of a point have to be in its box, up to a unit of their last digit.
+std::vector<std::string> misplaced_decimals(const Result& result) {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < std::min(result.cover.decimals.size(), result.cover.points.size()); ++i) {
+    const std::vector<std::string>& decimals = result.cover.decimals[i];
+    for (std::size_t v = 0; v < std::min(decimals.size(), result.cover.points[i].box.size()); ++v) {
+      if (decimals[v].empty()) continue;  // nothing is said of it
+      const std::size_t point = std::min(decimals[v].find('.'), decimals[v].size() - 1);
+      const double value = std::strtod(decimals[v].c_str(), nullptr), size = std::fabs(value),
+                   unit = std::pow(10.0, -static_cast<double>(decimals[v].size() - 1 - point)),
+                   room = unit + 4 * std::numeric_limits<double>::epsilon() * size;
+      const Interval& side = result.cover.points[i].box[v];
+      if (value + room >= side.lo() && value - room <= side.hi()) continue;
+      list.push_back(fmt::format("the decimals of point {} are not in its box", i + 1));
+      break;
+    }
+  }
+  return list;
+}
+
+// Of boxes that claim nothing, and what ends the table.
+std::string conclusion(const Verification& verification, const Result& result) {
+  const Report& report = verification.report;
+  std::string text;
+  const std::size_t open = report.boxes[static_cast<std::size_t>(Verdict::undecided)].unchecked,
+                    pending = report.boxes[static_cast<std::size_t>(Verdict::pending)].unchecked;
+  if (report.interrupted) {
+    std::size_t checked = 0;
+    for (const Tally& t : report.boxes) checked += t.verified + t.failed;
+    return fmt::format("interrupted in {}: {} of {} boxes were checked{}; nothing is said about the rest\n", report.stage,
+                       checked, result.cover.boxes.size(), report.failures.empty() ? "" : ", NOT VERIFIED");
+  }
+  if (report.left_out > 0) {
+    constexpr double kSurely = 3;  // (1 − 3/n)^n < 5 %
+    const std::size_t all = result.cover.boxes.size(), n = all - report.left_out;
+    text = fmt::format("a sample: {} of {} boxes, chosen at random, were checked; nothing is said about the others{}\n", n,
+                       all, result.cover.proof ? " or about completeness" : "");
+    if (!verification.contradictions.empty() || !report.confirmed()) return text + "NOT VERIFIED\n";
+    if (static_cast<double>(n) > kSurely)
+      text += fmt::format(
+          "if more than {:.2g} % of all boxes were wrong, at least 95 % of such samples would hold one of them\n",
+          100 * kSurely / static_cast<double>(n));
+    return text + "verified, but only the sample\n";
+  }
+  if (open > 0) text += fmt::format("{} undecided box{} nothing\n", open, open == 1 ? " claims" : "es claim");
+  if (pending > 0) text += fmt::format("{} pending box{} not searched\n", pending, pending == 1 ? " was" : "es were");
+  return text + (verification.complete()   ? "verified\n"
+                 : verification.verified() ? "verified, except for completeness\n"
+                                           : "NOT VERIFIED\n");
+}
+
+Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.failed}, {"not_checkable", t.unchecked}}; }
+
+// Of a part, or of what all parts have in common.
+System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
+  if (result.part.empty()) return symbolic::configurations(mechanism);
+  for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, set))
+    if (text(part) == result.part)
+      return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
+  throw ResultFileError("the result's model has no part '" + result.part + "'");
+}
+
+void add(const Tally& t, Tally& sum) {
+  sum.verified += t.verified;
+  sum.failed += t.failed;
+  sum.unchecked += t.unchecked;
+}
+
+void add_failures(const std::vector<Failure>& failures, const std::string& of, Report& sum) {
+  for (const Failure& f : failures) sum.failures.push_back({f.place, f.index, "(" + of + ") " + f.reason});
+}
+
+void add(const Report& part, const std::string& name, bool first, Report& sum) {
+  for (std::size_t v = 0; v < part.boxes.size(); ++v) add(part.boxes[v], sum.boxes[v]);
+  add(part.points, sum.points);
+  add(part.exact_points, sum.exact_points);
+  sum.points_without_claim += part.points_without_claim;
+  sum.left_out += part.left_out;
+  sum.proof.present = part.proof.present && (first || sum.proof.present);
+  sum.proof.verified = part.proof.verified && (first || sum.proof.verified);
+  sum.proof.open = part.proof.open || (!first && sum.proof.open);
+  sum.proof.steps += part.proof.steps;
+  sum.proof.leaves += part.proof.leaves;
+  sum.proof.searched += part.proof.searched;
+  add_failures(part.failures, "part: " + name, sum);
+  if (part.interrupted && !sum.interrupted) sum.stage = part.stage;
+  sum.interrupted = sum.interrupted || part.interrupted;
+}
+
+Verification verify_parts(const Result& result, Verification verification, const check::Options& options) {
+  const symbolic::Mechanism model = model_of(result);
+  for (std::string& c : contradictions_of_parts(model, result)) verification.contradictions.push_back(std::move(c));
+  for (std::size_t i = 0; verification.contradictions.empty() && i < result.parts.size(); ++i) {
+    const Result& part = result.parts[i];
+    const System system = system_of(model, part);
+    for (const std::string& c : contradictions(part, system, symbolic::to_cuik(system)))
+      verification.contradictions.push_back("(part: " + part.part + ") " + c);
+    if (verification.contradictions.empty())
+      add(check::check(system, part.cover, options), part.part, i == 0, verification.report);
+    if (verification.report.interrupted) break;
+  }
+  return verification;
+}
+
+bool same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const CoverBox& x, const CoverBox& y) {
+    return x.box == y.box && x.verdict == y.verdict && x.passage == y.passage && x.side == y.side && x.part == y.part &&
+           x.free == y.free && x.reason == y.reason;
+  });
+}
+
+// Of an empty set: the sample, or the search of C-space.
+void verify_assembly(const Result& result, const check::Options& options, Verification& verification) {
+  if (result.assembly.empty() || !verification.contradictions.empty()) return;
+  const Result& cspace = result.assembly.front();
+  if (!result.cover.boxes.empty() || !symbolic::definition(cspace.set).is_cspace()) {
+    verification.contradictions.emplace_back("it says something about C-space, but its set is not empty");
+    return;
+  }
+  const System system = system_of(model_of(result), cspace);
+  for (const std::string& c : contradictions(cspace, system, symbolic::to_cuik(system)))
+    verification.contradictions.push_back("(C-space) " + c);
+  if (!verification.contradictions.empty()) return;
+  check::Options whole = options;
+  whole.sample = 0;
+  const Report found = check::check(system, cspace.cover, whole);
+  const std::optional<bool> claimed = assembled(cspace);
+  if (found.verified() && claimed == std::optional(true)) verification.assembled = true;
+  if (found.complete() && claimed == std::optional(false)) {
+    verification.assembled = false;
+    // The set's configurations are among those of C-space, in the same ranges.
+    if (!verification.report.proof.present && verification.report.left_out == 0) verification.report.proof = found.proof;
+  }
+  add_failures(found.failures, "C-space", verification.report);
+  if (found.interrupted && !verification.report.interrupted) {
+    verification.report.interrupted = true;
+    verification.report.stage = found.stage;
+  }
+}
+
+Verification verify_set(const Result& result, const System& system, const check::Options& options) {
+  Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
+  if (!result.parts.empty() || symbolic::definition(result.set).of_parts)
+    return verify_parts(result, std::move(verification), options);
+  // Boxes of another system are not worth a check.
+  if (!verification.contradictions.empty()) return verification;
+  const auto blocks = blocks_of(result);
+  verification.report = check::check(system, result.cover, options, blocks ? &*blocks : nullptr);
+  return verification;
+}
+
+// "the robot can be assembled: confirmed".
+std::string assembly_text(const Verification& verification, const Result& result) {
+  const std::optional<bool> claimed = assembled(result);
+  if (result.assembly.empty() || !claimed) return "";
+  return fmt::format("the robot {} within its ranges: {}\n", *claimed ? "can be assembled" : "cannot be assembled",
+                     verification.assembled == claimed ? "confirmed" : "NOT CONFIRMED");
+}
+
+}  // namespace
+
+symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
+                                           const RunOptions& options) {
+  if (symbolic::definition(set).of_parts)
+    return symbolic::SetEquations(mechanism, set, symbolic::set_parts(mechanism, set).front()).system(options.kernel_scales);
+  symbolic::SetEquations equations(mechanism, set, symbolic::kernel_side_from_string(options.kernel));
+  if (options.passive_rates_eliminated) equations.eliminate_passive_rates();
+  return equations.system(options.kernel_scales, options.corank);
+}
+
+System system_of(const Result& result) { return system_of(model_of(result), result); }
+
+System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (mechanism.is_plain_system() ? result.set != symbolic::definition(std::nullopt).name : !set)
+    throw ResultFileError("the result's model has no set '" + result.set + "'");
+  const bool parts = set && (symbolic::definition(set).of_parts || !result.part.empty() || !result.parts.empty());
+  System system =
+      parts ? system_of_part(mechanism, *set, result)
+            : symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
+  system.coefficient_tolerance = result.options.tolerance;
+  if (parts) return system;
+  try {
+    system.validate();
+  } catch (const std::invalid_argument& error) {
+    throw ResultFileError(std::string("the result's system: ") + error.what());
+  }
+  return system;
+}
+
+std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result) {
+  const bool is_boundary = symbolic::definition(result.set).of_parts;
+  if (!is_boundary && result.parts.empty()) return {};
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
+  const std::vector<symbolic::SetPart> expected = symbolic::set_parts(model, *set);
+  const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(),
+                              [](const symbolic::SetPart& a, const Result& b) { return text(a) == b.part; });
+  if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
+  std::vector<std::string> list;
+  for (const Result& part : result.parts) {
+    if (is_boundary && part.outputs != model.outputs())
+      list.push_back("(part: " + part.part + ") the outputs are not those of the model");
+    if (part.variables.size() < result.variables.size() || part.set != result.set) return {"a part is of another set"};
+  }
+  Result merged = result;
+  merge_parts(merged);
+  if (!same_boxes(merged.cover.boxes, result.cover.boxes) || !same_boxes(merged.cover.points, result.cover.points) ||
+      merged.cover.dimension != result.cover.dimension || merged.outputs != result.outputs)
+    list.emplace_back("the whole is not made of its parts");
+  return list;
+}
+
+std::optional<VelocityBlocks> blocks_of(const Result& result) {
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (result.cover.types.asked == 0 || !set) return std::nullopt;
+  return symbolic::velocity_blocks(model_of(result), *set, symbolic::kernel_side_from_string(result.options.kernel),
+                                   result.options.corank);
+}
+
+Verification verify(const Result& result, const check::Options& options) {
+  return verify(result, system_of(result), options);
+}
+
+Verification verify(const Result& result, const System& system, const check::Options& options) {
+  Verification verification = verify_set(result, system, options);
+  verify_assembly(result, options, verification);
+  return verification;
+}
+
+std::vector<std::string> contradictions(const Result& result, const System& system, const std::string& system_text) {
+  std::vector<std::string> list;
+  const auto check = [&list](bool good, const std::string& what) {
+    if (!good) list.push_back(what + " not that of the model");
+  };
+  Result expected;
+  describe_system(system, expected);
+  bool variables = result.variables.size() == expected.variables.size();
+  for (std::size_t i = 0; variables && i < expected.variables.size(); ++i) {
+    const ResultVariable &a = result.variables[i], &b = expected.variables[i];
+    variables = a.name == b.name && a.kind == b.kind;
+    check(!variables || a.domain == b.domain, "the domain of " + b.name + " is");
+  }
+  check(variables, "the list of variables is");
+  check(std::ranges::equal(result.angles, expected.angles,
+                           [](const Angle& a, const Angle& b) {
+                             return a.name == b.name && a.cosine == b.cosine && a.sine == b.sine && a.range == b.range;
+                           }),
+        "the list of angles is");
+  check(result.configuration_size == expected.configuration_size, "the number of configuration variables is");
+  check(result.equations == expected.equations, "the number of equations is");
+  check(result.inequalities == expected.inequalities, "the number of inequalities is");
+  check(without_comments(result.system_text) == without_comments(system_text), "the system is");
+  if (result.options.sigma != result.cover.sigma) list.emplace_back("two different values of sigma");
+  const double tolerance = kPartialTolerance * system.coefficient_tolerance;
+  const bool square = system.equations.size() <= system.variables.size();
+  if (!(result.cover.tolerance == tolerance || (!square && result.cover.tolerance == 0)))
+    list.emplace_back("the tolerance is not that of the options");
+  for (const std::string& misplaced : misplaced_decimals(result)) list.push_back(misplaced);
+  return list;
+}
+
+std::string to_table(const Verification& verification, const Result& result) {
+  const Report& report = verification.report;
+  std::string text = fmt::format("{}, {}: checked against its model with intervals of 160 bits and exact numbers\n\n",
+                                 result.model, symbolic::set_with_corank(result.set, result.options.corank));
+  for (const std::string& c : verification.contradictions) text += "file: " + c + "\n";
+  if (!verification.contradictions.empty()) return printable(text + "NOT VERIFIED: nothing else was checked\n");
+  text += fmt::format("  {:<12}  {:>9}  {:>9}  {:>13}\n", "verdict", "verified", "failed", "not checkable");
+  for (int v = 0; v < kVerdicts; ++v) text += row(to_string(static_cast<Verdict>(v)), report.boxes[v]);
+  text += row("points", report.points) + row("exact points", report.exact_points);
+  text += "\n" + completeness(report, result.cover.complete());
+  text += assembly_text(verification, result);
+  if (!result.cover.decimals.empty()) text += "decimals: they lie in their boxes, but were not proven again\n";
+  for (std::size_t i = 0; i < std::min(report.failures.size(), kShownFailures); ++i) {
+    const Failure& f = report.failures[i];
+    text += f.place == Failure::Place::cover ? fmt::format("cover: {}\n", f.reason)
+                                             : fmt::format("{} {}: {}\n", word(f.place), f.index + 1, f.reason);
+  }
+  if (report.failures.size() > kShownFailures)
+    text += fmt::format("… and {} more\n", report.failures.size() - kShownFailures);
+  return printable(text + conclusion(verification, result));
+}
+
+std::string to_json(const Verification& verification) {
+  const Report& report = verification.report;
+  Json json;
+  json["verified"] = verification.verified();
+  json["complete"] = verification.complete();
+  json["interrupted"] = report.interrupted;
+  if (report.interrupted) json["stage"] = report.stage;
+  if (report.left_out > 0) json["not_in_sample"] = report.left_out;
+  for (int v = 0; v < kVerdicts; ++v) json["verdicts"][to_string(static_cast<Verdict>(v))] = to_json(report.boxes[v]);
+  json["points"] = to_json(report.points);
+  json["exact_points"] = to_json(report.exact_points);
+  json["assembled"] = verification.assembled ? Json(*verification.assembled) : Json();
+  const check::ProofTally& proof = report.proof;
+  json["completeness"] = {{"proof", proof.present}, {"verified", proof.verified}, {"open", proof.open},
+                          {"steps", proof.steps},   {"leaves", proof.leaves},     {"searched", proof.searched}};
+  json["contradictions"] = verification.contradictions;
+  json["failures"] = Json::array();
+  for (const Failure& f : report.failures)
+    json["failures"].push_back({{"what", word(f.place)}, {"number", f.index + 1}, {"reason", f.reason}});
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string ended_early_json(const std::string& stage) {
+  return Json{{"verified", false}, {"complete", false}, {"interrupted", true}, {"stage", stage}}.dump(2);
+}
+
+}  // namespace corank::result

@@ -1,0 +1,78 @@
+// What happens to one box of the search: contraction, proof, or bisection; and later the cutting of proven sheets to the
+// size asked for.
+//
+// All that deletes, shrinks or certifies is a call into certify/; this file only decides what to try when.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "corank/solve/cutting/slicer.h"
+#include "corank/solve/step/local_solution.h"
+#include "corank/solve/step/preconditioner.h"
+#include "corank/solve/step/problem.h"
+#include "corank/solve/step/propagation.h"
+#include "corank/solve/store/shard.h"
+
+namespace corank::solve {
+
+/// One per thread.
+class BoxProcessor {
+ public:
+  enum class Outcome { done, split, postponed, interrupted };
+
+  /// What is found goes to the shard, and what is done to its script, where it has one.
+  BoxProcessor(const Problem& problem, Shard& shard);
+  BoxProcessor(const BoxProcessor&) = delete;  // the slicer refers to its siblings
+  BoxProcessor& operator=(const BoxProcessor&) = delete;
+
+  /// Treats the box x (changed in place), which has that share of the search domain. done: it is empty, or its solutions are
+  /// in a sheet or a found box of the shard. split: it has shrunk to x and is to be bisected at split_variable().
+  /// postponed: it is the shard's last. interrupted: the search ends, and nothing was made of the box as it was given.
+  /// `postpone`, of the typical sizes: how small a box is before it may be postponed.
+  Outcome process(std::span<Interval> x, double postpone, double share);
+  /// Keeps a postponed box that was proven to hold a self-motion.
+  void add_proven(const Postponed& box);
+  /// Cuts a sheet into found pieces, or leaves it whole. False: the search ended meanwhile, some are pending.
+  bool cut(const Proven& proven, bool whole);
+  /// Makes a box that a limit has left a pending one, unless it is outside the domain.
+  void leave(const Waiting& box);
+  /// Adds x, which nothing could be proven of, to the found boxes.
+  void give_up(std::span<const Interval> x, Reason reason) { add_unproven(x, Verdict::undecided, reason); }
+  int split_variable() const { return split_variable_; }
+  /// The lower and the upper part of a box that is to be bisected, without nodes.
+  std::array<Waiting, 2> halves(Waiting box) const;
+
+ private:
+  // The widest side that Newton leaves free, −1 where there is none.
+  int widest_free(std::span<const Interval> x);
+  // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns
+  // true.
+  enum class Proof { full, partial };
+  certify::Sheet prove(std::span<const Interval> x);
+  // Proves an independent subset and bounds the others over a box no narrower than σ: in a tiny box around a singular point
+  // any equation looks redundant.
+  certify::Sheet prove_partially(std::span<const Interval> x);
+  bool certify(std::span<Interval> x, Proof proof);
+  // A solution in x or next to it at which the Jacobian has not its full rank.
+  std::optional<LocalSolution> degenerate_solution(std::span<const Interval> x, double share) const;
+  std::vector<double> midpoint(std::span<const Interval> x) const;
+  int choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near);
+  void add_unproven(std::span<const Interval> x, Verdict verdict, Reason reason = Reason::none);
+  NodeId go_on_later() { return recorder_ ? recorder_->go_on_later() : NodeId{}; }
+  Box copy_of(std::span<const Interval> x) const { return {x.begin(), x.begin() + problem_.compiled.variables()}; }
+
+  const Problem& problem_;
+  Shard& shard_;
+  Recorder* const recorder_;  // the shard's script, where it has one
+  PreconditionerFactory preconditioners_;
+  certify::NewtonWorkspace workspace_;
+  Contractor contractor_;
+  Slicer slicer_;
+  int split_variable_ = -1;
+  std::vector<int> dependent_;
+};
+
+}  // namespace corank::solve

@@ -1,0 +1,76 @@
+#include "corank/solve/step/problem.h"
+
+#include <algorithm>
+
+#include "corank/solve/step/heuristics.h"
+#include "corank/solve/step/propagation.h"
+
+namespace corank::solve {
+std::vector<Polynomial> values_of(const certify::Reduction& reduction) {
+  std::vector<Polynomial> values;
+  for (const auto& definition : reduction.definitions) values.push_back(definition.value);
+  return values;
+}
+
+Problem::Problem(const System& system, const certify::Reduction& reduction, std::function<bool()> e)
+    : compiled(reduction.system, values_of(reduction)),
+      redundant(reduction.system),
+      domain(reduction.system),
+      subset(reduction.subset),
+      tolerant(reduction.tolerant || redundant.applies()),
+      rank_tolerance(reduction.tolerant ? kRoundedRankTolerance : kRedundantRankTolerance),
+      branching(reduction.system, 1, system.kernel_vectors),
+      heuristics(heuristics_for(reduction.system, tolerant)),
+      ended(std::move(e)),
+      classes_(sigma_classes(system, reduction)) {
+  TypicalSizes sizes = typical_sizes(compiled, reduction.system.domain());
+  compiled.set_scales(std::move(sizes.variables));
+  equation_sizes = std::move(sizes.equations);
+}
+
+void Problem::set_sigma(const Sigma& s) {
+  sigma.clear();
+  for (const SigmaClass kind : classes_) sigma.push_back(sigma_of(s, kind));
+}
+
+std::vector<double> Problem::limits(double share) const {
+  std::vector<double> result;
+  for (std::size_t j = 0; j < compiled.scales().size(); ++j) {
+    result.push_back(2 * share * branching.patience(static_cast<int>(j)) * compiled.scales()[j]);
+    if (tolerant) result.back() = std::min(result.back(), sigma[j]);
+  }
+  return result;
+}
+
+double Problem::excess(const Box& sides) const {
+  double largest = 0;
+  for (std::size_t j = 0; j < sides.size(); ++j) largest = std::max(largest, sides[j].width() / sigma[j]);
+  return largest;
+}
+
+double Problem::relative_width(std::span<const Interval> x) const {
+  double largest = 0;
+  for (std::size_t j = 0; j < compiled.scales().size(); ++j)
+    largest = std::max(largest, x[j].width() / (2 * compiled.scales()[j]));
+  return largest;
+}
+
+void Problem::append_values(Box& sides) const {
+  sides.resize(compiled.variables());
+  for (int k = 0; k < compiled.values(); ++k) sides.push_back(compiled.evaluate(compiled.value_row(k), sides));
+}
+
+void Problem::append_values_at_zeros(const certify::NewtonStep& step, Box& sides) const {
+  append_values(sides);
+  const std::size_t n = compiled.variables();
+  for (int k = 0; k < compiled.values(); ++k) sides[n + k].intersect(step.value_at_zeros(compiled.value_row(k), sides));
+}
+
+std::vector<int> other_variables(const std::vector<int>& given, int variables) {
+  std::vector<int> others;
+  for (int j = 0; j < variables; ++j)
+    if (std::ranges::find(given, j) == given.end()) others.push_back(j);
+  return others;
+}
+
+}  // namespace corank::solve

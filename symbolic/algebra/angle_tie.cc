@@ -1,0 +1,12 @@
+#include "corank/symbolic/algebra/angle_tie.h"
+
+#include <array>
+
+namespace corank::symbolic {
+
+Relation AngleTie::relation() const {
+  static constexpr std::array<const char*, 4> kOffsets = {"", " + pi/2", " + pi", " - pi/2"};
+  return Expression::symbol(angle) == Expression((sign < 0 ? "-" : "") + other + kOffsets[quarters]);
+}
+
+}  // namespace corank::symbolic

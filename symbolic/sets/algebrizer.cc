@@ -1,0 +1,356 @@
+#include "corank/symbolic/sets/algebrizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "corank/core/check.h"
+#include "corank/symbolic/algebra/ginac_lock.h"
+#include "corank/symbolic/algebra/polynomial_expander.h"
+#include "corank/symbolic/model/expression_words.h"
+
+namespace corank::symbolic {
+namespace {
+
+bool mentions(const Relation& relation, const std::vector<std::string>& names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return relation.lhs.mentions(name) || relation.rhs.mentions(name); });
+}
+
+// An angle's range [α, β] as conditions on c = cos θ and s = sin θ; see algebrizer.h for the theorem.
+struct ConstantRange {
+  ConstantValue lower, upper;
+};
+
+struct AngleRange {
+  // [lower, upper] ⊇ {cos θ}, {sin θ}: exact ends, the hull wherever signs of the constants involved can be decided.
+  ConstantRange cosine, sine;
+  // cos(m)·c + sin(m)·s ≥ cos(h), where the range is smaller than the circle and more than one value.
+  struct Chord {
+    ConstantValue cos_m, sin_m, cos_h;
+  };
+  std::optional<Chord> chord;
+  // cos α and sin α where α = β; then there is no chord, and `cosine` and `sine` are [-1, 1].
+  struct Value {
+    ConstantValue cosine, sine;
+  };
+  std::optional<Value> value;
+};
+
+// Does [α, β] contain offset + 2πk for some integer k? True where that cannot be decided: the hull may be too wide, never
+// too narrow.
+bool may_contain(const ConstantRange& range, const ConstantValue& offset) {
+  const double lower = range.lower.exact().enclose().lo(), first = offset.exact().enclose().lo();
+  const double turns = std::floor((lower - first) / (2 * std::acos(-1.0)));
+  if (!(std::abs(turns) < 1e6)) throw std::domain_error("an angle of more than a million turns");
+  // The first candidate ≥ α is among these, whatever the double arithmetic above lost.
+  for (int k = -1; k <= 2; ++k) {
+    const ConstantValue candidate =
+        offset + ConstantValue(2) * ConstantValue(static_cast<int>(turns) + k) * ConstantValue::pi();
+    if ((candidate - range.lower).sign().value_or(0) >= 0 && (range.upper - candidate).sign().value_or(0) >= 0) return true;
+  }
+  return false;
+}
+
+// Hull of f over the range, for f = cos (or sin) with a maximum at `top` and a minimum at `bottom`, both mod 2π.
+ConstantRange hull(const ConstantRange& range, const std::string& f, const ConstantValue& top, const ConstantValue& bottom) {
+  const ConstantValue at_lower = ConstantValue::function(f, range.lower), at_upper = ConstantValue::function(f, range.upper);
+  const std::optional<int> order = (at_upper - at_lower).sign();
+  ConstantRange result{-1, 1};
+  if (order && !may_contain(range, bottom)) result.lower = *order >= 0 ? at_lower : at_upper;
+  if (order && !may_contain(range, top)) result.upper = *order >= 0 ? at_upper : at_lower;
+  return result;
+}
+
+// Requires α ≤ β. Throws std::domain_error where the bounds are absurdly large.
+AngleRange angle_range(const ConstantRange& range) {
+  const ConstantValue width = range.upper - range.lower, pi = ConstantValue::pi();
+  const std::optional<int> below_circle = (ConstantValue(2) * pi - width).sign();
+  // Undecided: the range is the whole circle but for 10^-1000 of it. No condition is the safe reading.
+  AngleRange result{{-1, 1}, {-1, 1}, std::nullopt, std::nullopt};
+  if (below_circle.value_or(0) <= 0) return result;
+  if (width.sign() == 0) {
+    result.value = {ConstantValue::function("cos", range.lower), ConstantValue::function("sin", range.lower)};
+    return result;
+  }
+  const ConstantValue half_pi = pi / 2;
+  result.cosine = hull(range, "cos", 0, pi);
+  result.sine = hull(range, "sin", half_pi, -half_pi);
+  const ConstantValue m = (range.lower + range.upper) / 2, h = width / 2;
+  result.chord = {ConstantValue::function("cos", m), ConstantValue::function("sin", m), ConstantValue::function("cos", h)};
+  return result;
+}
+
+class Algebrizer {
+ public:
+  explicit Algebrizer(const TrigonometricSystem& system) : in_(system) {}
+  System run();
+  std::vector<Polynomial> polynomials(const std::vector<Expression>& expressions);
+
+ private:
+  void add_names();
+  void add_coordinates();
+  void add_length(const Coordinate& coordinate);
+  void add_angle(const Coordinate& coordinate);
+  void add_tie(const AngleTie& tie);
+  void add_kernel_unknowns();
+  void add_equation(const TrigonometricSystem::Equation& equation);
+  void add_inequality(const TrigonometricSystem::Equation& inequality);
+  int add_variable(const std::string& name, VariableKind kind, const ConstantRange& range);
+  ConstantRange range_of(const Coordinate& coordinate);
+  /// lhs − rhs.
+  ExpandedPolynomial difference(const TrigonometricSystem::Equation& equation);
+  std::string fresh_name(std::string name);
+
+  const TrigonometricSystem& in_;
+  System out_;
+  PolynomialExpander expander_;
+  std::set<std::string> names_;
+  std::vector<Polynomial> angle_equations_, chords_;
+  std::vector<std::string> special_angles_;  // of one value, or tied
+};
+
+std::string equation_text(const TrigonometricSystem::Equation& equation) {
+  constexpr std::size_t kLongest = 160;
+  const std::string text = equation.relation.text();
+  return "`" + (text.size() > kLongest ? text.substr(0, kLongest) + "…" : text) + "`";
+}
+
+// A coefficient beyond double precision's range would make every enclosure useless.
+void require_bounded(const Polynomial& polynomial, const TrigonometricSystem::Equation& equation) {
+  for (const Monomial& monomial : polynomial.monomials)
+    if (!monomial.enclosure.is_bounded())
+      throw ModelError(equation.where,
+                       "the coefficient " + in_quotes(monomial.coefficient.text()) + " of the equation " +
+                           equation_text(equation) + " is too large",
+                       "coefficients within double precision's range");
+}
+
+ConstantRange Algebrizer::range_of(const Coordinate& coordinate) {
+  const std::string what = "the range of " + in_quotes(coordinate.name);
+  ConstantRange range{expander_.constant(coordinate.lower, what, coordinate.where),
+                      expander_.constant(coordinate.upper, what, coordinate.where)};
+  const std::string text = coordinate.range_text();
+  try {
+    if ((range.upper - range.lower).sign() == -1)
+      throw ModelError(coordinate.where, what + ", " + text + ", is empty", "a lower bound of at most the upper one");
+    if (!range.lower.exact().enclose().is_bounded() || !range.upper.exact().enclose().is_bounded())
+      throw ModelError(coordinate.where, what + ", " + text + ", is unbounded", "bounds within double precision's range");
+  } catch (const std::domain_error& error) {
+    throw ModelError(coordinate.where, what + ", " + text + ", has no real bounds: " + error.what(), "real numbers");
+  }
+  return range;
+}
+
+int Algebrizer::add_variable(const std::string& name, VariableKind kind, const ConstantRange& range) {
+  out_.variables.emplace_back(name, kind, range.lower.exact(), range.upper.exact());
+  return out_.size() - 1;
+}
+
+std::string Algebrizer::fresh_name(std::string name) {
+  while (!names_.insert(name).second) name += "_";
+  return name;
+}
+
+void Algebrizer::add_length(const Coordinate& coordinate) {
+  const int variable = add_variable(coordinate.name, VariableKind::length, range_of(coordinate));
+  expander_.add_unknown(coordinate.name, variable);
+  out_.variables[variable].direction = coordinate.direction;
+}
+
+void Algebrizer::add_angle(const Coordinate& coordinate) {
+  const ConstantRange range = range_of(coordinate);
+  AngleRange condition;
+  try {
+    condition = angle_range(range);
+  } catch (const std::domain_error& error) {
+    throw ModelError(coordinate.where, "the range of " + in_quotes(coordinate.name) + " cannot be used: " + error.what(),
+                     "radians");
+  }
+  Angle angle;
+  angle.name = coordinate.name;
+  angle.cosine = add_variable(fresh_name("c_" + coordinate.name), VariableKind::cosine, condition.cosine);
+  angle.sine = add_variable(fresh_name("s_" + coordinate.name), VariableKind::sine, condition.sine);
+  angle.range = Interval(range.lower.exact().enclose().lo(), range.upper.exact().enclose().hi());
+  const auto c = ExpandedPolynomial::variable(angle.cosine), s = ExpandedPolynomial::variable(angle.sine);
+  if (condition.value) {
+    expander_.add_fixed_angle(coordinate.name, range.lower);
+    special_angles_.push_back(coordinate.name);
+    angle_equations_.push_back((c - condition.value->cosine).compile("value of " + coordinate.name));
+    angle_equations_.push_back((s - condition.value->sine).compile("value of " + coordinate.name));
+  } else if (in_.tie && in_.tie->angle == coordinate.name) {
+    expander_.add_tied_angle(*in_.tie);
+  } else {
+    expander_.add_angle(coordinate.name, angle.cosine, angle.sine);
+    angle_equations_.push_back((pow(c, 2) + pow(s, 2) - 1).compile("circle of " + coordinate.name));
+  }
+  if (condition.chord) {
+    const auto& [cos_m, sin_m, cos_h] = *condition.chord;
+    chords_.push_back((cos_m * c + sin_m * s - cos_h).compile("range of " + coordinate.name));
+  }
+  out_.angles.push_back(std::move(angle));
+}
+
+// In place of the circle, on which the other angle is.
+void Algebrizer::add_tie(const AngleTie& tie) {
+  const Expression angle = Expression::symbol(tie.angle);
+  const auto own = std::find_if(out_.angles.begin(), out_.angles.end(), [&](const Angle& a) { return a.name == tie.angle; });
+  for (const auto& [function, variable] : {std::pair("cos", own->cosine), std::pair("sin", own->sine)}) {
+    const ExpandedPolynomial value =
+        expander_.polynomial(Expression::function(function, {angle}), tie.text(), {in_.name, 0, 0});
+    angle_equations_.push_back((ExpandedPolynomial::variable(variable) - value).compile(tie.text()));
+  }
+  special_angles_.insert(special_angles_.end(), {tie.angle, tie.other});
+}
+
+void Algebrizer::add_kernel_unknowns() {
+  for (const std::string& name : in_.kernel_unknowns)
+    expander_.add_unknown(name, add_variable(name, VariableKind::kernel, {-1, 1}));
+  for (const std::string& name : in_.second_unknowns)
+    expander_.add_unknown(name, add_variable(name, VariableKind::auxiliary, {-1, 1}));
+  for (const auto& [name, lower, upper] : in_.further_unknowns)
+    expander_.add_unknown(name, add_variable(name, VariableKind::auxiliary, {lower, upper}));
+}
+
+ExpandedPolynomial Algebrizer::difference(const TrigonometricSystem::Equation& equation) {
+  const std::string what = equation_text(equation);
+  const ExpandedPolynomial lhs = expander_.polynomial(equation.relation.lhs, what, equation.where);
+  const ExpandedPolynomial rhs = expander_.polynomial(equation.relation.rhs, what, equation.where);
+  try {
+    return lhs - rhs;
+  } catch (const std::exception& error) {
+    throw ModelError(equation.where, "the equation " + what + " is too large: " + error.what(), "a smaller polynomial");
+  }
+}
+
+void Algebrizer::add_equation(const TrigonometricSystem::Equation& equation) {
+  Polynomial polynomial = difference(equation).compile(equation.source);
+  if (polynomial.monomials.empty()) {
+    // A kernel row that the constants make zero says nothing about xi, and where an angle has one value, or
+    // is tied to another, an equation may say nothing there. Any other equation of the model that says nothing is a mistake.
+    if (equation.of_kernel || mentions(equation.relation, special_angles_)) return;
+    throw ModelError(equation.where, "the equation " + equation_text(equation) + " always holds",
+                     "an equation between unknowns");
+  }
+  if (polynomial.degree() == 0) {
+    const ExactNumber& value = polynomial.monomials[0].coefficient;
+    throw ModelError(equation.where,
+                     "the equation " + equation_text(equation) + " contains no unknown and " +
+                         (value.sign() ? "can never hold: " : "cannot be decided: ") + value.text() + " = 0",
+                     "an equation between unknowns");
+  }
+  require_bounded(polynomial, equation);
+  out_.equations.push_back(std::move(polynomial));
+}
+
+void Algebrizer::add_inequality(const TrigonometricSystem::Equation& inequality) {
+  ExpandedPolynomial gap = difference(inequality);
+  if (inequality.relation.kind == Relation::Kind::less_equal) gap = -gap;
+  Polynomial polynomial = gap.compile(inequality.source);
+  if (polynomial.degree() == 0) {
+    const std::optional<int> sign = polynomial.monomials.empty() ? 0 : polynomial.monomials[0].coefficient.sign();
+    if (sign && *sign >= 0) return;
+    throw ModelError(inequality.where,
+                     "the inequality " + equation_text(inequality) + " contains no unknown and " +
+                         (sign ? "can never hold" : "cannot be decided"),
+                     "an inequality between unknowns");
+  }
+  require_bounded(polynomial, inequality);
+  out_.inequalities.push_back(std::move(polynomial));
+}
+
+void Algebrizer::add_names() {
+  for (const Constant& constant : in_.constants) names_.insert(constant.name);
+  for (const Coordinate& coordinate : in_.coordinates) names_.insert(coordinate.name);
+  names_.insert(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end());
+  names_.insert(in_.second_unknowns.begin(), in_.second_unknowns.end());
+  for (const auto& unknown : in_.further_unknowns) names_.insert(unknown.name);
+}
+
+void Algebrizer::add_coordinates() {
+  for (const Constant& constant : in_.constants) expander_.define(constant);
+  for (const Coordinate& coordinate : in_.coordinates) {
+    const auto first = out_.variables.size();
+    coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(coordinate);
+    for (auto v = first; v < out_.variables.size(); ++v) out_.variables[v].auxiliary = coordinate.auxiliary;
+  }
+  if (in_.tie) add_tie(*in_.tie);
+}
+
+System Algebrizer::run() {
+  out_.name = in_.name;
+  add_names();
+  add_coordinates();
+  out_.configuration_size = out_.size();
+  out_.kernel_vectors = in_.corank;
+  out_.kernel_scales = in_.kernel_scales;
+  out_.passive_rates_eliminated = in_.passive_rates_eliminated;
+  add_kernel_unknowns();
+  expander_.length_functions().start(out_.size());
+
+  // The configuration's own equations and its angles' first, the kernel's after them.
+  for (const auto& equation : in_.equations)
+    if (!equation.of_kernel) add_equation(equation);
+  out_.equations.insert(out_.equations.end(), angle_equations_.begin(), angle_equations_.end());
+  for (const auto& equation : in_.equations)
+    if (equation.of_kernel && !equation.is_tie) add_equation(equation);
+  for (const auto& inequality : in_.inequalities) add_inequality(inequality);
+  for (const auto& claim : in_.claimed) out_.claimed.push_back(difference(claim).compile(claim.source));
+  out_.inequalities.insert(out_.inequalities.end(), chords_.begin(), chords_.end());
+  expander_.length_functions().settle(out_, [this](const std::string& name) { return fresh_name(name); });
+  try {
+    out_.validate();
+  } catch (const std::invalid_argument& error) {
+    throw ModelError({in_.name, 0, 0}, error.what());
+  }
+  return std::move(out_);
+}
+
+std::vector<Polynomial> Algebrizer::polynomials(const std::vector<Expression>& expressions) {
+  add_names();
+  add_coordinates();
+  add_kernel_unknowns();
+  const int variables = out_.size();
+  expander_.length_functions().start(variables);
+  std::vector<Polynomial> result;
+  for (const Expression& expression : expressions) {
+    const std::string what = in_quotes(expression.text());
+    result.push_back(expander_.polynomial(expression, what, {in_.name, 0, 0}).compile(what));
+    for (const Monomial& monomial : result.back().monomials)
+      for (const Factor& factor : monomial.factors)
+        if (factor.variable >= variables)
+          throw ModelError({in_.name, 0, 0}, what + " holds a sine or cosine of a length", "a polynomial in lengths");
+  }
+  return result;
+}
+
+// Whatever GiNaC and CLN throw becomes a ModelError.
+template <typename Make>
+auto guarded(const TrigonometricSystem& system, const Make& make) {
+  const GinacLock lock;
+  try {
+    return make(Algebrizer(system));
+  } catch (const ModelError&) {
+    throw;
+  } catch (const InvariantError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw ModelError({system.name, 0, 0}, std::string("the system cannot be made polynomial: ") + error.what());
+  }
+}
+
+}  // namespace
+
+System algebrize(const TrigonometricSystem& system) {
+  return guarded(system, [](Algebrizer algebrizer) { return algebrizer.run(); });
+}
+
+std::vector<Polynomial> polynomials(const TrigonometricSystem& system, const std::vector<Expression>& expressions) {
+  return guarded(system, [&](Algebrizer algebrizer) { return algebrizer.polynomials(expressions); });
+}
+
+}  // namespace corank::symbolic

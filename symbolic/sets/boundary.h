@@ -1,0 +1,56 @@
+// The boundary of a mechanism's workspace in the space of its outputs u, as parts: which limited coordinates are at which
+// limit. Every boundary of the workspace, interior or exterior, is the image of a point of some part.
+//
+// With Φ(q) = 0, mobility n = n_q − n_e, n_u ≤ n outputs, z all other coordinates and A a set of limited coordinates of
+// z, each at one of its limits:
+//   part A:          Φ(q) = 0,  q_i = limit (i ∈ A),  λᵀ Φ_{z_j} = 0 (z_j ∉ A),  ‖λ‖ = 1,  all limits hold
+//   part of a limited output u_i:   Φ(q) = 0,  u_i = limit,  all limits hold
+// Theorem (doc/theory.md, "Workspace boundaries"): the configurations from which the output cannot move, to first order and
+// with the coordinates at their limits kept there, in some direction are those of the parts with |A| ≤ n − n_u + 1 and of
+// the limited outputs. A part A has the expected dimension n_u − 1.
+//
+// Generalized singularities: Bohigas, Manubens, Ros, "Singularities of Robot Mechanisms", 2017 (key Bohigas2017), whose
+// sin τ in place of a limited coordinate gives the same configurations, each several times.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/core/system.h"
+#include "corank/symbolic/sets/limits.h"
+#include "corank/symbolic/sets/singularity_system.h"
+
+namespace corank::symbolic {
+
+struct BoundaryPart {
+  struct Active {
+    std::string coordinate;
+    Expression value;  ///< the limit that it is at
+    bool upper = false;
+  };
+  std::vector<Active> active;
+  bool of_output = false;  ///< `active` is one output, at its limit
+
+  /// "no limit", "theta2 at its upper limit, theta5 at its lower limit".
+  std::string text() const;
+};
+
+/// Without limits first, then by |A|, then those of outputs. Throws ModelError where the model names no outputs, has
+/// more of them than its mobility, or there are more than 1000 parts.
+std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism);
+
+/// What the kernel vector λ of a part that is not of an output is asked of. Rows of Φ_z that are 0 (ties of the outputs)
+/// have none. A mechanism's own velocity equation has no say.
+KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& part);
+
+/// What decides about the passage, over algebrize(system), where `system` is the part's. Nothing where outputs are tied, or
+/// the equations hold sines of lengths.
+std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
+                                        const TrigonometricSystem& system);
+
+/// The configurations of a mechanism, without what is no coordinate or its sine or cosine: what boxes of all parts have
+/// in common.
+System configurations(const Mechanism& mechanism);
+
+}  // namespace corank::symbolic

@@ -1,0 +1,45 @@
+// A set as a union: its matrix M, square, is brought to block triangular form by exact row operations, and is singular
+// exactly where one of the diagonal blocks is; a small block where a factor of its determinant vanishes. Each of these is a
+// part of the set, with an equation of its own and no kernel vector. So the parts have none of the strata that the whole
+// system has where two of them meet: a circle of kernel vectors over each configuration.
+//
+// Theorem (doc/theory.md, "Parts of a set"): ker M(q) ≠ 0 exactly where a part's condition holds. Rows are eliminated by
+// entries that are rational numbers ≠ 0 and by the rotations of passive_rates.h, which leave det M as it is but for a factor
+// ≠ 0; entries left of and below the blocks are identically zero, so that det M = ± Π det B_i; factors over the rational
+// numbers, and what cos² + sin² = 1 makes of them, have the zeros of their product.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/core/ended.h"
+#include "corank/symbolic/sets/singularity_system.h"
+
+namespace corank::symbolic {
+
+/// { q : Φ(q) = 0 and one of tie, condition = 0, block singular }.
+struct Component {
+  std::string name;               ///< "phi_rod1 = theta1", "x_C = 0", "condition on theta1, theta2, theta3 (2)"
+  std::optional<AngleTie> tie{};  ///< of sin(a ∓ b) = 0 or cos(a ∓ b) = 0, each a part for either way
+  std::optional<Expression> condition{};
+  /// Φ gives all other coordinates as polynomials in those that the condition and its own may hold, as an arm's joints give
+  /// its links: the part is a hypersurface among free coordinates.
+  bool is_free = false;
+  std::optional<ExpressionMatrix> block{};  ///< with a kernel vector: more than three rows whose determinant is no product
+
+  /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.
+  std::string relation() const { return tie ? tie->text() : condition ? condition->text() + " = 0" : ""; }
+  friend bool operator==(const Component& a, const Component& b) {
+    return a.name == b.name || (!a.block && a.relation() == b.relation());
+  }
+};
+
+/// The parts of the set of a kernel_question(), in the order of M's rows, of a block the shortest condition first. One: the
+/// set is no union. None: M is not square, or vanishes everywhere, or is singular nowhere for a reason that its factors
+/// show, or the factors are not found in time (RationalPolynomial::factors) or before `ended`. Factors that are proven to
+/// have no zero in the search domain are left out. Angles fixed at multiples of π/2 are replaced by
+/// their value.
+std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended = {});
+
+}  // namespace corank::symbolic

@@ -1,0 +1,56 @@
+#include "corank/symbolic/sets/determinant_factors.h"
+
+#include <algorithm>
+
+#include "corank/symbolic/velocity/exact_matrix.h"
+
+namespace corank::symbolic {
+
+std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended) {
+  ExactMatrix m(mechanism, matrix);
+  m.eliminate_numbers();
+  const auto vanishing = [&]() -> ModelError {
+    return {{mechanism.name(), 0, 0},
+            "the determinant vanishes everywhere",
+            "a mechanism with configurations that are not singular"};
+  };
+  const auto blocks = m.blocks();
+  if (!blocks) throw vanishing();
+  std::vector<RationalPolynomial> factors;
+  for (const SquareBlock& block : *blocks) {
+    const RationalPolynomial value = m.determinant(block);
+    if (value.is_zero()) throw vanishing();
+    for (RationalPolynomial& factor : value.factors(ended).value_or(std::vector{value}))
+      if (std::find(factors.begin(), factors.end(), factor) == factors.end()) factors.push_back(std::move(factor));
+  }
+  std::vector<Expression> result;
+  for (const RationalPolynomial& factor : factors)
+    if (std::optional<Expression> condition = m.condition(factor)) result.push_back(std::move(*condition));
+  std::sort(result.begin(), result.end(), [](const Expression& a, const Expression& b) { return a.text() < b.text(); });
+  return result;
+}
+
+ExpressionMatrix locked_matrix(const Mechanism& mechanism, SingularitySet set) {
+  return kernel_question(mechanism, set, KernelSide::left).matrix;
+}
+
+Loci singularity_loci(const Mechanism& mechanism, const Ended& ended) {
+  Loci loci;
+  loci.matrices = {locked_matrix(mechanism, SingularitySet::forward), locked_matrix(mechanism, SingularitySet::inverse)};
+  for (std::size_t k = 0; k < 2; ++k) {
+    loci.factors[k] = determinant_factors(mechanism, loci.matrices[k], ended);
+    const std::size_t known = loci.all_factors.size();
+    for (const Expression& e : loci.factors[k]) {
+      const auto begin = loci.all_factors.begin(), end = begin + static_cast<std::ptrdiff_t>(known);
+      std::size_t place = std::find_if(begin, end, [&](const Expression& f) { return same_tree(e, f); }) - begin;
+      if (place == known) {
+        place = loci.all_factors.size();
+        loci.all_factors.push_back(e);
+      }
+      loci.places[k].push_back(place);
+    }
+  }
+  return loci;
+}
+
+}  // namespace corank::symbolic

@@ -1,0 +1,79 @@
+#include "corank/symbolic/sets/set_parts.h"
+
+#include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/kernel_scale.h"
+
+namespace corank::symbolic {
+
+std::string text(const SetPart& part) {
+  const auto* component = std::get_if<Component>(&part);
+  return component ? component->name : std::get<BoundaryPart>(part).text();
+}
+
+std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended) {
+  const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
+  if (definition(set).of_parts) return as_parts(boundary_parts(mechanism));
+  return as_parts(decompose(mechanism, kernel_question(mechanism, set), ended));
+}
+
+SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side)
+    : mechanism_(mechanism), set_(set) {
+  if (definition(set).has_kernel()) kernel_.emplace(kernel_question(mechanism, set, side));
+}
+
+SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, SetPart part)
+    : mechanism_(definition(set).of_parts ? mechanism.without_rates() : mechanism), set_(set), part_(std::move(part)) {
+  if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {
+    if (!limits->of_output) kernel_.emplace(boundary_kernel(mechanism_, *limits));
+  } else if (const std::optional<ExpressionMatrix>& block = std::get<Component>(*part_).block) {
+    const std::vector<SourceLocation> where(block->rows.size(), SourceLocation{mechanism.name(), 0, 0});
+    kernel_.emplace(KernelQuestion{definition(set), "B", *block, where, KernelSide::right, {}});
+  }
+}
+
+void SetEquations::eliminate_passive_rates() {
+  if (kernel_) kernel_.emplace(without_passive_rates(mechanism_, *kernel_));
+}
+
+std::vector<std::string> SetEquations::scales() const {
+  if (kernel_) return kernel_scales(mechanism_, *kernel_);
+  return part_ ? std::vector<std::string>{} : kernel_scales(mechanism_, set_);
+}
+
+TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales, int corank) const {
+  if (!part_ && !kernel_) return singularity_system(mechanism_, set_, std::nullopt, scales, corank);
+  TrigonometricSystem system = kernel_ ? singularity_system(mechanism_, *kernel_, scales, corank) : plain_system(mechanism_);
+  if (!kernel_) system.name += std::string(" ") + definition(set_).name;
+  if (!part_) return system;
+  if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {
+    set_at_limits(*limits, system);
+  } else {
+    add_condition(std::get<Component>(*part_), system);
+  }
+  return system;
+}
+
+void SetEquations::set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const {
+  for (const BoundaryPart::Active& active : part.active) {
+    Coordinate& c = system.coordinates[mechanism_.find_coordinate(active.coordinate)];
+    c.lower = c.upper = active.value;
+  }
+  system.name += ": " + part.text();
+}
+
+void SetEquations::add_condition(const Component& part, TrigonometricSystem& system) const {
+  const SourceLocation where{mechanism_.name(), 0, 0};
+  system.tie = part.tie;
+  if (part.tie) system.equations.push_back({part.tie->relation(), part.name, where, true, true});
+  if (part.condition) system.equations.push_back({*part.condition == Expression(0), part.name, where, true});
+}
+
+System SetEquations::compiled(const std::vector<std::string>& scales) const {
+  const TrigonometricSystem equations = system(scales);
+  System compiled = algebrize(equations);
+  if (const auto* limits = part_ ? std::get_if<BoundaryPart>(&*part_) : nullptr)
+    compiled.passage = passage_form(mechanism_, *limits, equations);
+  return compiled;
+}
+
+}  // namespace corank::symbolic

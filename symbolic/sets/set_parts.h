@@ -1,0 +1,51 @@
+// Sets and their parts as equations. A set that is the union of parts is solved as these, each by a system of its own: a
+// workspace's boundary, by the limits that are met (boundary.h), and a set whose matrix decomposes (decomposition.h).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "corank/core/ended.h"
+#include "corank/core/system.h"
+#include "corank/symbolic/sets/boundary.h"
+#include "corank/symbolic/sets/decomposition.h"
+
+namespace corank::symbolic {
+
+using SetPart = std::variant<BoundaryPart, Component>;
+
+/// "theta2 at its upper limit"; "phi_rod1 = theta1". No two parts of a set have the same.
+std::string text(const SetPart& part);
+
+/// boundary_parts(), or decompose(). Throws ModelError as these do.
+std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended = {});
+
+/// What solves a set, or one of its parts: what its kernel is asked of, made once. Throws ModelError as kernel_question(),
+/// boundary_parts() and singularity_system() do.
+class SetEquations {
+ public:
+  SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side = std::nullopt);
+  SetEquations(const Mechanism& mechanism, SingularitySet set, SetPart part);
+
+  /// Of a right kernel, where it has such.
+  void eliminate_passive_rates();
+  /// Those that system() is meant to have (kernel_scale.h); none where there is no kernel vector.
+  std::vector<std::string> scales() const;
+  TrigonometricSystem system(const std::vector<std::string>& scales, int corank = 1) const;
+  /// algebrize() of system(), of a boundary's part with its passage form.
+  System compiled(const std::vector<std::string>& scales) const;
+
+ private:
+  void set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const;
+  void add_condition(const Component& part, TrigonometricSystem& system) const;
+
+  Mechanism mechanism_;  // of a boundary without a velocity equation of its own
+  SingularitySet set_;
+  std::optional<SetPart> part_;
+  /// Nothing: of all configurations, cusps, nodes, or of a part without a kernel vector.
+  std::optional<KernelQuestion> kernel_;
+};
+
+}  // namespace corank::symbolic

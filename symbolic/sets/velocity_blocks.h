@@ -1,0 +1,18 @@
+// The blocks of a mechanism's velocity equation whose ranks say which types of singularity a configuration has
+// (core/singularity_types.h), as polynomials in the variables of the system of a set.
+#pragma once
+
+#include <optional>
+
+#include "corank/core/singularity_types.h"
+#include "corank/symbolic/sets/singularity_system.h"
+
+namespace corank::symbolic {
+
+/// Of the system that singularity_system(mechanism, set, side, …, corank) gives; with at_most what its kernels say of ranks.
+/// Nothing for cspace, and where an entry is no polynomial in the system's variables (a sine of a length). Throws ModelError
+/// as kernel_question does.
+std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, SingularitySet set,
+                                              std::optional<KernelSide> side = std::nullopt, int corank = 1);
+
+}  // namespace corank::symbolic

@@ -1,0 +1,327 @@
+#include "corank/symbolic/velocity/exact_matrix.h"
+
+#include <algorithm>
+#include <bit>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/max_cardinality_matching.hpp>
+#include <boost/graph/strong_components.hpp>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "corank/symbolic/algebra/ginac_bridge.h"
+#include "corank/symbolic/algebra/ginac_lock.h"
+
+namespace corank::symbolic {
+
+namespace {
+
+using Bipartite = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
+using Vertex = boost::graph_traits<Bipartite>::vertex_descriptor;
+
+// Of each vertex its partner in a matching that is as large as possible: row i is vertex i, column j vertex n + j, n rows.
+std::vector<Vertex> matching(const std::vector<std::vector<std::size_t>>& filled, std::size_t columns) {
+  const std::size_t n = filled.size();
+  Bipartite pattern(n + columns);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const std::size_t j : filled[i]) boost::add_edge(i, n + j, pattern);
+  std::vector<Vertex> partner(n + columns);
+  boost::edmonds_maximum_cardinality_matching(pattern, partner.data());
+  return partner;
+}
+
+bool is_alone(Vertex partner) { return partner == boost::graph_traits<Bipartite>::null_vertex(); }
+
+}  // namespace
+
+std::size_t term_rank(const std::vector<std::vector<std::size_t>>& filled, std::size_t columns) {
+  const std::vector<Vertex> partner = matching(filled, columns);
+  return filled.size() - std::count_if(partner.begin(), partner.begin() + filled.size(), is_alone);
+}
+
+std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<std::vector<std::size_t>>& filled) {
+  const std::size_t n = filled.size();
+  const std::vector<Vertex> partner = matching(filled, n);
+  if (std::any_of(partner.begin(), partner.end(), is_alone)) return std::nullopt;
+
+  // An arrow from row i to the row whose partner is a column that i fills: rows of one block reach each other.
+  using Directed = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
+  Directed arrows(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const std::size_t j : filled[i]) boost::add_edge(i, partner[n + j], arrows);
+  std::vector<std::size_t> component(n);
+  const std::size_t count = boost::strong_components(
+      arrows, boost::make_iterator_property_map(component.begin(), boost::get(boost::vertex_index, arrows)));
+  std::vector<SquareBlock> blocks(count);
+  for (std::size_t i = 0; i < n; ++i) {
+    blocks[component[i]].rows.push_back(i);
+    blocks[component[i]].columns.push_back(partner[i] - n);
+  }
+  for (SquareBlock& block : blocks) std::sort(block.columns.begin(), block.columns.end());
+  std::sort(blocks.begin(), blocks.end(),
+            [](const SquareBlock& a, const SquareBlock& b) { return a.rows.front() < b.rows.front(); });
+  return blocks;
+}
+
+constexpr std::size_t kLargest = 16;       // rows of a block
+constexpr std::size_t kMostTerms = 20000;  // of a determinant; what is longer has no sign that boxes would show
+
+// Expressions as polynomials: coordinates, constants, sines, cosines and irrational numbers are the unknowns.
+class ExactMatrix::Unknowns {
+ public:
+  Unknowns(const Mechanism& mechanism, SourceLocation where) : bridge(mechanism), where_(std::move(where)) {
+    for (const Coordinate& c : mechanism.coordinates())
+      (c.kind == CoordinateKind::angle ? angles_ : lengths_).push_back(bridge.symbol(c.name));
+  }
+
+  const GinacLock lock{};
+  const GinacBridge bridge;
+
+  void collect(const GiNaC::ex& e) {
+    if (GiNaC::is_a<GiNaC::numeric>(e) && GiNaC::ex_to<GiNaC::numeric>(e).is_rational()) return;
+    if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
+      for (const GiNaC::ex& part : e) collect(part);
+    } else if (is_power(e)) {
+      collect(e.op(0));
+    } else {
+      if (!GiNaC::is_a<GiNaC::symbol>(e) && !GiNaC::is_a<GiNaC::function>(e) && bridge.mentions_coordinate(e))
+        throw ModelError(where_, bridge.to_expression(e).text(), "a polynomial in coordinates, sines and cosines");
+      if (index_.try_emplace(e, atoms_.size()).second) atoms_.push_back(e);
+    }
+  }
+
+  /// When all are collected.
+  void close() { ring_.emplace(atoms_.size()); }
+  const PolynomialRing& ring() const { return *ring_; }
+
+  struct Circle {
+    std::size_t cosine, sine;
+  };
+  std::vector<Circle> circles() const {
+    std::vector<Circle> result;
+    for (const GiNaC::ex& angle : angles_) {
+      const auto c = index_.find(GiNaC::cos(angle)), s = index_.find(GiNaC::sin(angle));
+      if (c != index_.end() && s != index_.end()) result.push_back({c->second, s->second});
+    }
+    return result;
+  }
+
+  RationalPolynomial polynomial(const GiNaC::ex& e) const {
+    if (const auto atom = index_.find(e); atom != index_.end()) return RationalPolynomial::unknown(*ring_, atom->second);
+    if (GiNaC::is_a<GiNaC::numeric>(e)) return RationalPolynomial::number(*ring_, text_of(e));
+    if (is_power(e))
+      return polynomial(e.op(0)).power(static_cast<std::uint64_t>(GiNaC::ex_to<GiNaC::numeric>(e.op(1)).to_long()));
+    RationalPolynomial result = RationalPolynomial::number(*ring_, GiNaC::is_a<GiNaC::add>(e) ? "0" : "1");
+    for (const GiNaC::ex& part : e)
+      result = GiNaC::is_a<GiNaC::add>(e) ? result + polynomial(part) : result * polynomial(part);
+    return result;
+  }
+
+  // Of f = 0: the last coordinate that is none of the seen unknowns and stands in one term alone, with a number for its
+  // coefficient; and what it is.
+  std::optional<std::pair<std::size_t, RationalPolynomial>> solved_for(const RationalPolynomial& f,
+                                                                       const std::vector<bool>& seen) const {
+    const auto terms = f.terms();
+    for (std::size_t i = lengths_.size(); i-- > 0;) {
+      const auto place = index_.find(lengths_[i]);
+      const std::size_t k = place == index_.end() ? seen.size() : place->second;
+      if (k == seen.size() || seen[k]) continue;
+      const auto holds = [&](const RationalPolynomial::Term& term) { return term.powers[k] > 0; };
+      const auto own = std::find_if(terms.begin(), terms.end(), holds);
+      if (own == terms.end() || std::count_if(terms.begin(), terms.end(), holds) != 1) continue;
+      if (std::accumulate(own->powers.begin(), own->powers.end(), std::uint64_t{0}) != 1) continue;
+      const RationalPolynomial x = RationalPolynomial::unknown(*ring_, k);
+      return std::pair(k, x - f.over(RationalPolynomial::number(*ring_, own->coefficient)));
+    }
+    return std::nullopt;
+  }
+
+  GiNaC::ex expression(const RationalPolynomial& f) const {
+    GiNaC::exvector sum;
+    for (const RationalPolynomial::Term& term : f.terms()) {
+      const std::size_t bar = term.coefficient.find('/');
+      GiNaC::exvector product{GiNaC::numeric(term.coefficient.substr(0, bar).c_str())};
+      if (bar != std::string::npos) product.push_back(1 / GiNaC::numeric(term.coefficient.substr(bar + 1).c_str()));
+      for (std::size_t k = 0; k < atoms_.size(); ++k)
+        if (term.powers[k] > 0) product.push_back(GiNaC::pow(atoms_[k], GiNaC::numeric(term.powers[k])));
+      sum.push_back(GiNaC::mul(product));
+    }
+    return GiNaC::add(sum);
+  }
+
+ private:
+  static bool is_power(const GiNaC::ex& e) {
+    return GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::posint);
+  }
+  const SourceLocation where_;
+  std::vector<GiNaC::ex> angles_, lengths_;
+  std::optional<PolynomialRing> ring_;
+  std::map<GiNaC::ex, std::size_t, GiNaC::ex_is_less> index_;
+  std::vector<GiNaC::ex> atoms_;
+};
+
+ExactMatrix::ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi)
+    : where_{mechanism.name(), 0, 0}, columns_(matrix.columns), equations_(phi.size()) {
+  const std::size_t n = matrix.rows.size();
+  if (n != columns_.size())
+    throw ModelError(where_,
+                     "a matrix with " + std::to_string(n) + " rows and " + std::to_string(columns_.size()) + " columns",
+                     "a square one");
+  unknowns_ = std::make_unique<Unknowns>(mechanism, where_);
+  std::vector<std::vector<GiNaC::ex>> entries(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const Expression& e : matrix.rows[i])
+      unknowns_->collect(entries[i].emplace_back(unknowns_->bridge.to_ginac(e, where_)));
+  std::vector<GiNaC::ex> equations;
+  for (const Expression& e : phi) {
+    GiNaC::ex equation = unknowns_->bridge.to_ginac(e, where_);
+    try {
+      unknowns_->collect(equation);
+      equations.push_back(std::move(equation));
+    } catch (const ModelError&) {  // no polynomial
+    }
+  }
+  unknowns_->close();
+  for (const auto& row : entries) {
+    auto& to = rows_.emplace_back();
+    for (const GiNaC::ex& e : row) to.push_back(unknowns_->polynomial(e));
+  }
+  std::vector<bool> seen(unknowns_->ring().unknowns(), false);
+  for (const GiNaC::ex& equation : equations) {
+    const RationalPolynomial f = unknowns_->polynomial(equation);
+    if (const auto x = unknowns_->solved_for(f, seen)) explicit_.push_back({x->first, x->second});
+    for (const RationalPolynomial::Term& term : f.terms())
+      for (std::size_t k = 0; k < seen.size(); ++k) seen[k] = seen[k] || term.powers[k] > 0;
+  }
+}
+
+ExactMatrix::~ExactMatrix() = default;
+
+std::vector<std::vector<std::size_t>> ExactMatrix::filled() const {
+  std::vector<std::vector<std::size_t>> result(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    for (std::size_t j = 0; j < size(); ++j)
+      if (!rows_[i][j].is_zero()) result[i].push_back(j);
+  return result;
+}
+
+std::optional<std::vector<SquareBlock>> ExactMatrix::blocks() const { return block_triangular_form(filled()); }
+
+void ExactMatrix::eliminate_numbers() {
+  while (eliminate_a_number()) {
+  }
+}
+
+// Of all such entries the one that fills the fewest others.
+bool ExactMatrix::eliminate_a_number() {
+  const auto entries = filled();
+  std::vector<std::size_t> in_column(size(), 0);
+  for (const auto& row : entries)
+    for (const std::size_t j : row) ++in_column[j];
+  std::size_t least = 0, row = size(), column = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    for (const std::size_t j : entries[i]) {
+      const std::size_t fill = (entries[i].size() - 1) * (in_column[j] - 1);
+      if (rows_[i][j].is_number() && (row == size() || fill < least)) std::tie(least, row, column) = std::tuple(fill, i, j);
+    }
+  if (row == size()) return false;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (i == row || rows_[i][column].is_zero()) continue;
+    const RationalPolynomial multiple = rows_[i][column].over(rows_[row][column]);
+    for (const std::size_t j : entries[row])
+      if (j != column) rows_[i][j] = rows_[i][j] - multiple * rows_[row][j];
+  }
+  rows_.erase(rows_.begin() + row);
+  for (auto& rest : rows_) rest.erase(rest.begin() + column);
+  columns_.erase(columns_.begin() + column);
+  return true;
+}
+
+RationalPolynomial ExactMatrix::determinant(const SquareBlock& block) const {
+  const PolynomialRing& ring = unknowns_->ring();
+  if (block.rows.size() > kLargest)
+    throw DeterminantTooLarge(
+        where_, "a determinant of " + std::to_string(block.rows.size()) + " rows that is not a product of smaller ones",
+        "at most " + std::to_string(kLargest) + " rows");
+  std::map<std::uint32_t, RationalPolynomial> minors;
+  minors.emplace(0U, RationalPolynomial::number(ring, "1"));
+  for (const std::size_t i : block.rows) {
+    std::map<std::uint32_t, RationalPolynomial> next;
+    std::size_t terms = 0;
+    for (const auto& [columns, minor] : minors)
+      for (std::size_t k = 0; k < block.columns.size(); ++k) {
+        const std::uint32_t bit = 1U << k;
+        const RationalPolynomial& entry = rows_[i][block.columns[k]];
+        if ((columns & bit) != 0 || entry.is_zero()) continue;
+        const bool odd = std::popcount(columns >> k) % 2 != 0;
+        const auto [place, fresh] = next.try_emplace(columns | bit, ring);
+        const std::size_t before = place->second.size();
+        place->second = odd ? place->second - entry * minor : place->second + entry * minor;
+        terms += place->second.size() - std::min(before, place->second.size());
+        if (terms > kMostTerms)
+          throw DeterminantTooLarge(where_,
+                                    "a determinant of " + std::to_string(block.rows.size()) + " rows with many terms",
+                                    "at most " + std::to_string(kMostTerms) + " terms");
+      }
+    minors = std::move(next);
+  }
+  const auto all = minors.find(static_cast<std::uint32_t>((std::uint64_t{1} << block.columns.size()) - 1));
+  return all == minors.end() ? RationalPolynomial(ring) : all->second;
+}
+
+RationalPolynomial ExactMatrix::without_squares(const RationalPolynomial& f, std::size_t gone, std::size_t kept) const {
+  const PolynomialRing& ring = unknowns_->ring();
+  const RationalPolynomial square = RationalPolynomial::number(ring, "1") - RationalPolynomial::unknown(ring, kept).power(2);
+  RationalPolynomial sum(ring);
+  for (RationalPolynomial::Term term : f.terms()) {
+    const std::uint64_t power = std::exchange(term.powers[gone], term.powers[gone] % 2);
+    sum = sum + RationalPolynomial::term(ring, term) * square.power(power / 2);
+  }
+  return sum;
+}
+
+RationalPolynomial ExactMatrix::modulo_circles(const RationalPolynomial& f) const {
+  RationalPolynomial shortest = f;
+  for (const auto& [cosine, sine] : unknowns_->circles())
+    for (const auto& [gone, kept] : {std::pair(cosine, sine), std::pair(sine, cosine)}) {
+      RationalPolynomial other = without_squares(shortest, gone, kept);
+      if (other.size() < shortest.size()) shortest = std::move(other);
+    }
+  return shortest;
+}
+
+RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f) const {
+  constexpr std::size_t kMostOnTheWay = 5000;
+  RationalPolynomial result = f;
+  for (std::size_t i = explicit_.size(); i-- > 0;) {
+    const auto& [unknown, value] = explicit_[i];
+    const auto terms = result.terms();
+    if (std::none_of(terms.begin(), terms.end(), [&](const auto& term) { return term.powers[unknown] > 0; })) continue;
+    RationalPolynomial sum(unknowns_->ring());
+    for (RationalPolynomial::Term term : terms) {
+      const std::uint64_t power = std::exchange(term.powers[unknown], 0);
+      sum = sum + RationalPolynomial::term(unknowns_->ring(), term) * value.power(power);
+      if (sum.size() > kMostOnTheWay) return f;
+    }
+    for (const auto& [cosine, sine] : unknowns_->circles()) sum = without_squares(sum, sine, cosine);
+    result = std::move(sum);
+  }
+  result = modulo_circles(result);
+  return result.size() <= f.size() ? result : f;
+}
+
+Expression ExactMatrix::entry(std::size_t row, std::size_t column) const { return expression(rows_[row][column]); }
+
+Expression ExactMatrix::expression(const RationalPolynomial& f) const {
+  return unknowns_->bridge.to_expression(unknowns_->expression(f));
+}
+
+// GiNaC's order and signs are its own: these are the text's.
+std::optional<Expression> ExactMatrix::condition(const RationalPolynomial& f) const {
+  const GiNaC::ex e = unknowns_->expression(f);
+  if (!unknowns_->bridge.mentions_coordinate(e)) return std::nullopt;
+  const Expression plus = unknowns_->bridge.to_expression(e), minus = unknowns_->bridge.to_expression(-e);
+  return std::make_pair(plus.text().size(), plus.text()) < std::make_pair(minus.text().size(), minus.text()) ? plus : minus;
+}
+
+}  // namespace corank::symbolic

@@ -1,0 +1,92 @@
+// A square matrix of expressions as polynomials over the rational numbers, and what leaves its zeros as they are: rows
+// eliminated by entries that are numbers, the block triangular form of the rest, determinants of its blocks.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/symbolic/algebra/rational_polynomial.h"
+#include "corank/symbolic/model/model_error.h"
+#include "corank/symbolic/velocity/velocity_equation.h"
+
+namespace corank::symbolic {
+
+struct SquareBlock {
+  std::vector<std::size_t> rows, columns;  ///< as many of both, ascending
+  friend bool operator==(const SquareBlock&, const SquareBlock&) = default;
+};
+
+/// The most entries, no two of a row or a column, that are filled: no matrix of that pattern has a higher rank. `filled[i]`:
+/// the columns in which row i is not identically zero.
+std::size_t term_rank(const std::vector<std::vector<std::size_t>>& filled, std::size_t columns);
+
+/// The block triangular form of a square matrix by its pattern alone (Dulmage, Mendelsohn 1958; key Dulmage1958): rows and
+/// columns are put in an order in which everything left of and below the square blocks on the diagonal is zero. So det M =
+/// ± Π det B_i, and M is singular exactly where a block is. `filled[i]`: the columns in which row i of an n×n matrix is not
+/// identically zero. The irreducible blocks in the order of their first rows. Nothing where no n entries stand in n rows
+/// and n columns: every determinant of that pattern vanishes.
+std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<std::vector<std::size_t>>& filled);
+
+/// No mistake of the model's: its determinant, expanded, is too long to be of use.
+class DeterminantTooLarge : public ModelError {
+ public:
+  using ModelError::ModelError;
+};
+
+class ExactMatrix {
+ public:
+  /// Coordinates, constants, sines, cosines and irrational numbers are the unknowns. Holds GiNaC's lock while it lives.
+  /// `phi`: Φ, for in_free_coordinates(). Throws ModelError where M is not square, or an entry is no polynomial in
+  /// coordinates, sines and cosines.
+  ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi = {});
+  ~ExactMatrix();
+
+  /// det M = ± c det M', where c is an entry that is a number and M' is M without its row and column, after multiples of the
+  /// row have made the rest of the column zero. M becomes M', and so on, while there is such an entry.
+  void eliminate_numbers();
+  std::size_t size() const { return rows_.size(); }
+  /// The columns' names.
+  const std::vector<std::string>& columns() const { return columns_; }
+  /// block_triangular_form() of the pattern.
+  std::optional<std::vector<SquareBlock>> blocks() const;
+  /// By Laplace's expansion along one row after the other; minors of the same columns are summed once. Throws
+  /// DeterminantTooLarge above 16 rows, or above 20,000 terms.
+  RationalPolynomial determinant(const SquareBlock& block) const;
+  /// 0 where cos² + sin² = 1 of all angles shows it, else the same polynomial or one with fewer terms.
+  RationalPolynomial modulo_circles(const RationalPolynomial& f) const;
+
+  /// The same at every configuration: coordinates that an equation of Φ gives explicitly, as a polynomial in coordinates
+  /// that occur before, are replaced by it, and even powers of sines by cosines. f itself where that is longer.
+  RationalPolynomial in_free_coordinates(const RationalPolynomial& f) const;
+
+  /// Does every equation of Φ give a coordinate so?
+  bool is_explicit() const { return explicit_.size() == equations_; }
+
+  Expression entry(std::size_t row, std::size_t column) const;
+  Expression expression(const RationalPolynomial& f) const;
+  /// The one of ±f with the shorter text; nothing where f holds no coordinate.
+  std::optional<Expression> condition(const RationalPolynomial& f) const;
+
+ private:
+  bool eliminate_a_number();
+  std::vector<std::vector<std::size_t>> filled() const;
+
+  class Unknowns;
+  struct Explicit {
+    std::size_t unknown;
+    RationalPolynomial value;
+  };
+  RationalPolynomial without_squares(const RationalPolynomial& f, std::size_t gone, std::size_t kept) const;
+
+  SourceLocation where_;
+  std::unique_ptr<Unknowns> unknowns_;
+  std::vector<std::vector<RationalPolynomial>> rows_;
+  std::vector<std::string> columns_;
+  std::size_t equations_ = 0;
+  std::vector<Explicit> explicit_;  // each in unknowns that are none, or stand before it
+};
+
+}  // namespace corank::symbolic
