@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "corank/certify/numeric.h"
-#include "corank/certify/panel.h"
+#include "corank/certify/slope_matrix.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
@@ -14,7 +14,7 @@
 namespace corank::certify {
 
 struct NewtonBuffers {
-  Panel panel;  ///< Y and Y·S
+  SlopeMatrix matrix;  ///< Y and Y·S
   std::vector<Interval> slope, values, residual, offset, image, region, gradient;
   std::vector<double> center, distance, sizes;
   std::vector<unsigned char> is_dependent;
@@ -30,30 +30,30 @@ void set_center(std::span<const Interval> x, int n, NewtonBuffers& w) {
   for (int j = 0; j < n; ++j) w.center[j] = x[j].mid();
 }
 
-// residual (r) := Y · F(c), after panel.set_matrix(Y).
+// residual (r) := Y · F(c), after matrix.set_matrix(Y).
 void multiply_residual(const CompiledSystem& system, const Preconditioner& p, NewtonBuffers& w) {
   const int r = p.rank();
   w.values.resize(r);
   for (int b = 0; b < r; ++b) w.values[b] = system.evaluate_at(p.equations[b], w.center.data());
-  w.panel.multiply(w.values, w.residual);
+  w.matrix.multiply(w.values, w.residual);
 }
 
 bool bounded(const std::vector<Interval>& x) {
   return std::ranges::all_of(x, [](const Interval& side) { return side.is_bounded(); });
 }
 
-// The rows Y·F(c) + Y·S·(x − c) ∋ 0 of the panel, each solved for its dependent variable.
+// The rows Y·F(c) + Y·S·(x − c) ∋ 0 of the matrix, each solved for its dependent variable.
 NewtonOutcome solve_rows(const Preconditioner& p, std::span<Interval> x, NewtonBuffers& w) {
-  const int r = p.rank(), n = w.panel.columns();
+  const int r = p.rank(), n = w.matrix.columns();
   w.offset.resize(n);
   for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
   w.image = w.residual;
-  w.panel.accumulate(w.offset.data(), p.dependent, Panel::Diagonal::zero, w.image);
+  w.matrix.accumulate(w.offset.data(), p.dependent, SlopeMatrix::Diagonal::zero, w.image);
   NewtonOutcome outcome;
   outcome.regular = true;
   for (int a = 0; a < r; ++a) {
     const int d = p.dependent[a];
-    const Interval pivot = w.panel.at(a, d);
+    const Interval pivot = w.matrix.at(a, d);
     if (!w.image[a].is_bounded()) {
       outcome.regular = false;
       continue;
@@ -105,32 +105,32 @@ NewtonStep::NewtonStep(const CompiledSystem& system, const Preconditioner& p, st
   NewtonBuffers& b = *buffers_;
   b.p.equations = p.equations;
   b.p.dependent = p.dependent;
-  if (!b.panel.set_matrix(p.y, p.rank())) return;
+  if (!b.matrix.set_matrix(p.y, p.rank())) return;
   set_center(x, system.variables(), b);
   b.slope.resize(system.entries());
   system.slopes(x, b.center.data(), b.slope);
-  if (!b.panel.assign_product(system, p.equations, b.slope)) return;
+  if (!b.matrix.assign_product(system, p.equations, b.slope)) return;
   multiply_residual(system, p, b);
   bounded_ = true;
   b.stepped.assign(x.begin(), x.begin() + system.variables());
   outcome_ = solve_rows(p, x, b);
-  if (outcome_.regular && !outcome_.empty) outcome_.spread = b.panel.distance_from_identity(p.dependent, system.scales());
+  if (outcome_.regular && !outcome_.empty) outcome_.spread = b.matrix.distance_from_identity(p.dependent, system.scales());
 }
 
 const std::vector<int>& NewtonStep::equations() const { return buffers_->p.equations; }
 const std::vector<int>& NewtonStep::dependent() const { return buffers_->p.dependent; }
 std::span<const double> NewtonStep::center() const { return buffers_->center; }
-double NewtonStep::derivative(int a, int j) const { return bounded_ ? -buffers_->panel.at(a, j).mid() : 0; }
+double NewtonStep::derivative(int a, int j) const { return bounded_ ? -buffers_->matrix.at(a, j).mid() : 0; }
 double NewtonStep::noise(int a) const { return bounded_ ? buffers_->residual[a].width() : 0; }
 
 void NewtonStep::add_smears(std::span<const Interval> x, std::vector<double>& sums) const {
   if (!bounded_) return;
-  const Panel& panel = buffers_->panel;
+  const SlopeMatrix& matrix = buffers_->matrix;
   std::vector<double> parts(sums.size());
   for (int a = 0; a < buffers_->p.rank(); ++a) {
     double sum = 0;
-    for (int j = 0; j < panel.columns(); ++j) {
-      const Interval entry = panel.at(a, j);
+    for (int j = 0; j < matrix.columns(); ++j) {
+      const Interval entry = matrix.at(a, j);
       const double size = j == buffers_->p.dependent[a] ? (entry - Interval(1.0)).mag() : entry.mag();
       sum += parts[j] = size * x[j].width();
     }
@@ -149,7 +149,7 @@ bool NewtonStep::contract_free(std::span<Interval> x) const {
   check_part(x);
   NewtonBuffers& w = *buffers_;
   const Preconditioner& p = w.p;
-  const int r = p.rank(), n = w.panel.columns();
+  const int r = p.rank(), n = w.matrix.columns();
   w.is_dependent.assign(n, 0);
   for (int d : p.dependent) w.is_dependent[d] = 1;
   w.free.clear();
@@ -159,15 +159,15 @@ bool NewtonStep::contract_free(std::span<Interval> x) const {
   w.offset.assign(n, Interval());
   for (int d : p.dependent) w.offset[d] = x[d] - Interval(w.center[d]);
   w.image = w.residual;
-  w.panel.accumulate(w.offset.data(), p.dependent, Panel::Diagonal::zero, w.image);
-  for (int a = 0; a < r; ++a) w.image[a] += w.panel.at(a, p.dependent[a]) * w.offset[p.dependent[a]];
+  w.matrix.accumulate(w.offset.data(), p.dependent, SlopeMatrix::Diagonal::zero, w.image);
+  for (int a = 0; a < r; ++a) w.image[a] += w.matrix.at(a, p.dependent[a]) * w.offset[p.dependent[a]];
   for (int f : w.free) w.offset[f] = x[f] - Interval(w.center[f]);
   for (int f : w.free) {
     for (int a = 0; a < r; ++a) {
       Interval others = w.image[a];
       for (int g : w.free)
-        if (g != f) others += w.panel.at(a, g) * w.offset[g];
-      const Interval slope = w.panel.at(a, f);
+        if (g != f) others += w.matrix.at(a, g) * w.offset[g];
+      const Interval slope = w.matrix.at(a, f);
       if (!others.is_bounded() || (-others).contains(slope * w.offset[f])) continue;  // no information
       const auto shift = divide(-others, slope, w.offset[f]);
       if (!shift || !x[f].intersect(Interval(w.center[f]) + *shift)) return false;
@@ -179,17 +179,17 @@ bool NewtonStep::contract_free(std::span<Interval> x) const {
 
 namespace {
 
-// image := Krawczyk image K over the box x about w.center; w.residual holds Y·F(c), the panel Y. False: no bounded image.
+// image := Krawczyk image K over the box x about w.center; w.residual holds Y·F(c), the matrix Y. False: no bounded image.
 bool krawczyk(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x, NewtonBuffers& w) {
   const int r = p.rank(), n = system.variables();
   w.slope.resize(system.entries());
   system.slopes(x, w.center.data(), w.slope);
-  if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
+  if (!w.matrix.assign_product(system, p.equations, w.slope)) return false;
   w.offset.resize(n);
   for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
   // K = c_D − (Y·F(c) + (Y·S_D − I)(Z − c_D) + Y·S_F (X_F − c_F))
   w.image = w.residual;
-  w.panel.accumulate(w.offset.data(), p.dependent, Panel::Diagonal::minus_one, w.image);
+  w.matrix.accumulate(w.offset.data(), p.dependent, SlopeMatrix::Diagonal::minus_one, w.image);
   for (int a = 0; a < r; ++a) w.image[a] = Interval(w.center[p.dependent[a]]) - w.image[a];
   return bounded(w.image);
 }
@@ -198,12 +198,12 @@ bool krawczyk(const CompiledSystem& system, const Preconditioner& p, std::span<c
 bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> b,
                          NewtonBuffers& w) {
   system.jacobian(b, w.slope);
-  if (!w.panel.assign_product(system, p.equations, w.slope)) return false;
+  if (!w.matrix.assign_product(system, p.equations, w.slope)) return false;
   w.distance.clear();
   w.sizes.clear();
   for (int a = 0; a < p.rank(); ++a) {
     for (int k = 0; k < p.rank(); ++k)
-      w.distance.push_back((Interval(k == a ? 1.0 : 0.0) - w.panel.at(a, p.dependent[k])).mag());
+      w.distance.push_back((Interval(k == a ? 1.0 : 0.0) - w.matrix.at(a, p.dependent[k])).mag());
     w.sizes.push_back(system.scales()[p.dependent[a]]);
   }
   return is_contraction(w.distance, w.sizes);
@@ -219,7 +219,7 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::s
   Sheet sheet;
   const int r = p.rank(), n = system.variables();
   // No dependent variable and no equation: every point of x is a solution.
-  if ((r == 0 && system.equations() > 0) || r > n || !w.panel.set_matrix(p.y, r)) return sheet;
+  if ((r == 0 && system.equations() > 0) || r > n || !w.matrix.set_matrix(p.y, r)) return sheet;
   set_center(x, n, w);
   multiply_residual(system, p, w);
   if (!bounded(w.residual)) return sheet;
@@ -266,7 +266,7 @@ Interval NewtonStep::value_at_zeros(int row, std::span<const Interval> x) const 
     if (!std::isfinite(lambda)) return Interval::whole();
     if (lambda == 0) continue;
     value -= scale(lambda, w.residual[a]);
-    w.panel.subtract_row(lambda, a, w.gradient.data());
+    w.matrix.subtract_row(lambda, a, w.gradient.data());
   }
   for (int j = 0; j < n; ++j) value += w.gradient[j] * (x[j] - Interval(w.center[j]));
   return value;

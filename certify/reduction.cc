@@ -282,7 +282,7 @@ Reduction apply(const System& system, const std::vector<ReductionStep>& steps) {
 
 Polynomial implied_equation(const System& system, const ImpliedEquation& of) {
   Polynomial h;
-  for (const ImpliedEquation::Part& part : of.parts) {
+  for (const ImpliedEquation::Multiple& part : of.parts) {
     CORANK_CHECK(part.equation >= 0 && part.factor.is_rational());
     const std::size_t k = part.equation;
     const std::size_t m = system.equations.size();
@@ -297,7 +297,7 @@ void add_implied(Reduction& reduction, const ImpliedEquation& of, const std::str
   h.source = source;
   ImpliedEquation step = of;
   const int m = static_cast<int>(reduction.system.equations.size());
-  for (ImpliedEquation::Part& part : step.parts) {
+  for (ImpliedEquation::Multiple& part : step.parts) {
     part.equation = part.equation < m ? reduction.origins[part.equation] : reduction.given_equations + (part.equation - m);
     for (Factor& x : part.product) x.variable = reduction.kept[x.variable];
     // `kept` ascends, so the factors stay sorted.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "corank/certify/panel.h"
+#include "corank/certify/slope_matrix.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
@@ -142,7 +142,7 @@ class FaceRange {
   const Preconditioner& p_;
   std::vector<Interval>& piece_;
   NewtonWorkspace& w_;
-  Panel panel_;
+  SlopeMatrix panel_;
   const std::size_t n_, r_;
   const std::vector<double>& widths_;
   const std::vector<int> free_;

@@ -24,7 +24,7 @@ class Range {
     narrow();
   }
 
-  // rk of `left` plus rk of the ties < rk of `right` plus n, where that is so for all, or for none.
+  // rk of `left` plus rk of the dependencies < rk of `right` plus n, where that is so for all, or for none.
   static void compare(SingularityType type, int lo_left, int hi_left, int lo_right, int hi_right, TypeLabels& labels) {
     if (hi_left < lo_right) labels.proven |= bit(type);
     if (lo_left >= hi_right) labels.excluded |= bit(type);
@@ -37,8 +37,8 @@ class Range {
     compare(iim, lo(all), hi(all), blocks_.matrices[index(all)].rows, blocks_.matrices[index(all)].rows, labels);
     compare(ro, lo(forward), hi(forward), blocks_.outputs + lo(passive), blocks_.outputs + hi(passive), labels);
     compare(ri, lo(inverse), hi(inverse), blocks_.inputs + lo(passive), blocks_.inputs + hi(passive), labels);
-    compare(ii, lo(forward) + lo(input_ties), hi(forward) + hi(input_ties), lo(all), hi(all), labels);
-    compare(io, lo(inverse) + lo(output_ties), hi(inverse) + hi(output_ties), lo(all), hi(all), labels);
+    compare(ii, lo(forward) + lo(input_dependencies), hi(forward) + hi(input_dependencies), lo(all), hi(all), labels);
+    compare(io, lo(inverse) + lo(output_dependencies), hi(inverse) + hi(output_dependencies), lo(all), hi(all), labels);
     labels.proven &= blocks_.asked;
     labels.excluded &= blocks_.asked;
     return labels;
@@ -52,11 +52,12 @@ class Range {
       hi_[index(small)] = std::min(hi_[index(small)], hi_[index(large)] + room - more);
     };
     for (int sweep = 0; sweep < 3; ++sweep) {
-      for (const auto& [side, count, ties] : {std::tuple(forward, blocks_.outputs, lo_[index(input_ties)]),
-                                              std::tuple(inverse, blocks_.inputs, lo_[index(output_ties)])}) {
+      for (const auto& [side, count, dependencies] :
+           {std::tuple(forward, blocks_.outputs, lo_[index(input_dependencies)]),
+            std::tuple(inverse, blocks_.inputs, lo_[index(output_dependencies)])}) {
         below(passive, 0, side, 0);
         below(side, 0, passive, count);
-        below(side, ties, all, 0);
+        below(side, dependencies, all, 0);
       }
     }
   }
@@ -81,14 +82,14 @@ RankBounds TypeBounds::ranks(const Box& box, int halvings, const RankBounds& kno
     if (bound && range.lo(block) < range.hi(block))
       range.raise(block, blocks_.matrices[index(block)].columns - bound->at_most(box, halvings));
   };
-  for (const Block block : {passive, input_ties, output_ties}) raise(block);
+  for (const Block block : {passive, input_dependencies, output_dependencies}) raise(block);
   raise(all);
   // Only where a type may be excluded by it.
   if ((wanted & (bit(SingularityType::ro) | bit(SingularityType::ii))) != 0 &&
-      range.hi(forward) >= std::min(blocks_.outputs + range.hi(passive), range.hi(all) - range.hi(input_ties)))
+      range.hi(forward) >= std::min(blocks_.outputs + range.hi(passive), range.hi(all) - range.hi(input_dependencies)))
     raise(forward);
   if ((wanted & (bit(SingularityType::ri) | bit(SingularityType::io))) != 0 &&
-      range.hi(inverse) >= std::min(blocks_.inputs + range.hi(passive), range.hi(all) - range.hi(output_ties)))
+      range.hi(inverse) >= std::min(blocks_.inputs + range.hi(passive), range.hi(all) - range.hi(output_dependencies)))
     raise(inverse);
   return range.lower();
 }

@@ -39,19 +39,19 @@ Row::Row(const Terms& f, const std::vector<int>& place) {
 
 Row::Row(const Polynomial& f, int variables, double tolerance) : Row(Terms(f, tolerance), all_but({}, variables)) {}
 
-Enclosure Row::value(const Part& p, const Enclosure& x) {
+Enclosure Row::value(const TermFactor& p, const Enclosure& x) {
   if (p.function == Function::sine) return sine(x);
   if (p.function == Function::cosine) return cosine(x);
   return power(x, p.power);
 }
 
-Enclosure Row::derivative(const Part& p, const Enclosure& x) {
+Enclosure Row::derivative(const TermFactor& p, const Enclosure& x) {
   if (p.function == Function::sine) return cosine(x);
   if (p.function == Function::cosine) return -sine(x);
   return p.power == 1 ? Enclosure(1.0) : Enclosure(static_cast<double>(p.power)) * power(x, p.power - 1);
 }
 
-Enclosure Row::slope(const Part& p, const Enclosure& x, const Enclosure& c) {
+Enclosure Row::slope(const TermFactor& p, const Enclosure& x, const Enclosure& c) {
   if (p.function != Function::identity) {
     const Enclosure half(0.5), middle = half * (x + c), hull = Enclosure::hull(x, c), h = half * (x - c);
     if (p.function == Function::sine) return wave_slope(cosine(middle), cosine(hull), h);
@@ -67,7 +67,7 @@ Enclosure Row::slope(const Part& p, const Enclosure& x, const Enclosure& c) {
 
 Enclosure Row::value(const Term& t, const Sides& x) {
   Enclosure product = t.c;
-  for (const Part& p : t.parts) {
+  for (const TermFactor& p : t.parts) {
     const Enclosure& side = x[p.variable];
     if (p.power == 1 && p.function == Function::identity) {
       product *= side;
@@ -112,21 +112,21 @@ void Row::slopes(const Sides& x, const Sides& c, Sides& s) const {
 void Row::derivatives(const Sides& x, Sides& s) const {
   s.assign(columns_.size(), Enclosure());
   for (const Term& t : terms_)
-    for (const Part& p : t.parts) {
+    for (const TermFactor& p : t.parts) {
       Enclosure product = t.c * derivative(p, x[p.variable]);
-      for (const Part& q : t.parts)
+      for (const TermFactor& q : t.parts)
         if (&q != &p) product *= value(q, x[q.variable]);
       s[p.column] += product;
     }
 }
 
-double Row::approximate(const Part& p, double x) {
+double Row::approximate(const TermFactor& p, double x) {
   if (p.function == Function::sine) return std::sin(x);
   if (p.function == Function::cosine) return std::cos(x);
   return p.power == 1 ? x : p.power == 2 ? x * x : std::pow(x, p.power);
 }
 
-double Row::approximate_derivative(const Part& p, double x) {
+double Row::approximate_derivative(const TermFactor& p, double x) {
   if (p.function == Function::sine) return std::cos(x);
   if (p.function == Function::cosine) return -std::sin(x);
   return p.power == 1 ? 1 : p.power == 2 ? 2 * x : p.power * std::pow(x, p.power - 1);
@@ -136,7 +136,7 @@ double Row::approximate(const std::vector<double>& x) const {
   double sum = 0;
   for (const Term& t : terms_) {
     double product = t.approximate;
-    for (const Part& p : t.parts) product *= approximate(p, x[p.variable]);
+    for (const TermFactor& p : t.parts) product *= approximate(p, x[p.variable]);
     sum += product;
   }
   return sum;
@@ -145,19 +145,19 @@ double Row::approximate(const std::vector<double>& x) const {
 void Row::approximate(const std::vector<double>& x, std::vector<double>& s) const {
   s.assign(columns_.size(), 0.0);
   for (const Term& t : terms_)
-    for (const Part& p : t.parts) {
+    for (const TermFactor& p : t.parts) {
       double product = t.approximate * approximate_derivative(p, x[p.variable]);
-      for (const Part& q : t.parts)
+      for (const TermFactor& q : t.parts)
         if (&q != &p) product *= approximate(q, x[q.variable]);
       s[p.column] += product;
     }
 }
 
 bool Row::invert(const Term& t, const Enclosure& image, Sides& x) {
-  for (const Part& p : t.parts) {
+  for (const TermFactor& p : t.parts) {
     Enclosure& side = x[p.variable];
     Enclosure others = t.c;
-    for (const Part& q : t.parts)
+    for (const TermFactor& q : t.parts)
       if (&q != &p) others *= value(q, x[q.variable]);
     if (others.is_zero()) continue;
     const auto values = divide(image, others, value(p, side));

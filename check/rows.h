@@ -39,20 +39,20 @@ class Row {
   bool project(Sides& x, bool equation) const;
 
  private:
-  struct Part {
+  struct TermFactor {
     int variable, power, column;
     Function function;
   };
   struct Term {
     Enclosure c;
     double approximate;
-    std::vector<Part> parts;
+    std::vector<TermFactor> parts;
   };
-  static Enclosure value(const Part& p, const Enclosure& x);
-  static Enclosure derivative(const Part& p, const Enclosure& x);
-  static Enclosure slope(const Part& p, const Enclosure& x, const Enclosure& c);
-  static double approximate(const Part& p, double x);
-  static double approximate_derivative(const Part& p, double x);
+  static Enclosure value(const TermFactor& p, const Enclosure& x);
+  static Enclosure derivative(const TermFactor& p, const Enclosure& x);
+  static Enclosure slope(const TermFactor& p, const Enclosure& x, const Enclosure& c);
+  static double approximate(const TermFactor& p, double x);
+  static double approximate_derivative(const TermFactor& p, double x);
   static Enclosure value(const Term& t, const Sides& x);
   bool is_linear() const;
   bool project_by_slopes(Sides& x) const;

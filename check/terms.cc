@@ -260,7 +260,7 @@ class Reducer {
   void imply(const ImpliedEquation& step) {
     const auto refuse = [](const std::string& reason) { throw std::invalid_argument("an implied equation: " + reason); };
     Terms h;
-    for (const ImpliedEquation::Part& part : step.parts) {
+    for (const ImpliedEquation::Multiple& part : step.parts) {
       const int given = static_cast<int>(equations_.size()), implied = static_cast<int>(result_.implied.size());
       if (part.equation < 0 || part.equation >= given + implied) refuse("names an equation that is not there");
       const std::size_t k = part.equation;

@@ -15,8 +15,8 @@ bool says(const TypeLabels& labels, SingularityType type, bool proven) {
 
 // A side of the mechanism: inputs locked, or outputs.
 struct Side {
-  Block block, ties;  // L_y and g_v, or L_z and g_u
-  int rates;          // n_u or n_v
+  Block block, dependencies;  // L_y and g_v, or L_z and g_u
+  int rates;                  // n_u or n_v
 };
 
 }  // namespace
@@ -28,8 +28,8 @@ class TypeCheck::InBox {
 
   bool shows(SingularityType type, bool proven) const {
     using enum SingularityType;
-    const Side forward{Block::forward, Block::input_ties, blocks_.outputs},
-        inverse{Block::inverse, Block::output_ties, blocks_.inputs};
+    const Side forward{Block::forward, Block::input_dependencies, blocks_.outputs},
+        inverse{Block::inverse, Block::output_dependencies, blocks_.inputs};
     switch (type) {
       case rpm: return proven ? most(Block::passive) < blocks_.passive : passive_is(blocks_.passive);
       case iim: return proven ? most(Block::all) < rows() : all_is(rows());
@@ -47,8 +47,8 @@ class TypeCheck::InBox {
     return side_is(side, side.rates + most(Block::passive));
   }
   bool impossible(const Side& side, bool proven) const {  // rk M + rk g < rk L
-    if (proven) return all_is(most_of(side) + most(side.ties) + 1);
-    return side_is(side, most(Block::all) - ties(side));
+    if (proven) return all_is(most_of(side) + most(side.dependencies) + 1);
+    return side_is(side, most(Block::all) - dependencies(side));
   }
 
   int rows() const { return blocks_.matrices[index(Block::all)].rows; }
@@ -58,9 +58,11 @@ class TypeCheck::InBox {
     return std::min({own, most(Block::forward), most(Block::inverse)});
   }
   int most_of(const Side& side) const {
-    return std::min({most(side.block), side.rates + most(Block::passive), most(Block::all) - ties(side)});
+    return std::min({most(side.block), side.rates + most(Block::passive), most(Block::all) - dependencies(side)});
   }
-  int ties(const Side& side) const { return is(side.ties, most(side.ties)) ? most(side.ties) : 0; }
+  int dependencies(const Side& side) const {
+    return is(side.dependencies, most(side.dependencies)) ? most(side.dependencies) : 0;
+  }
 
   // Is the rank r at least, all over the box?
   bool is(Block block, int r) const {
@@ -111,8 +113,8 @@ std::string TypeCheck::of_point(const TypeLabels& labels, const ExactCheck& poin
       case iim: return rank(all) < blocks_.matrices[index(all)].rows;
       case ro: return rank(forward) < blocks_.outputs + rank(passive);
       case ri: return rank(inverse) < blocks_.inputs + rank(passive);
-      case ii: return rank(forward) + rank(input_ties) < rank(all);
-      case io: return rank(inverse) + rank(output_ties) < rank(all);
+      case ii: return rank(forward) + rank(input_dependencies) < rank(all);
+      case io: return rank(inverse) + rank(output_dependencies) < rank(all);
     }
     return false;
   };

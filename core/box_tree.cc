@@ -108,14 +108,14 @@ std::vector<std::size_t> BoxTree::groups(double gap, const Ended& ended) const {
 void GrowingBoxTree::add(const Box& box) {
   std::vector<const Box*> boxes{&box};
   std::size_t first = size_++;
-  while (!parts_.empty() && parts_.back().boxes.size() <= boxes.size()) {
-    std::vector<const Box*>& older = parts_.back().boxes;
+  while (!subtrees_.empty() && subtrees_.back().boxes.size() <= boxes.size()) {
+    std::vector<const Box*>& older = subtrees_.back().boxes;
     older.insert(older.end(), boxes.begin(), boxes.end());
     boxes = std::move(older);
-    first = parts_.back().first;
-    parts_.pop_back();
+    first = subtrees_.back().first;
+    subtrees_.pop_back();
   }
-  parts_.push_back({first, boxes, BoxTree(boxes, sides_)});
+  subtrees_.push_back({first, boxes, BoxTree(boxes, sides_)});
 }
 
 }  // namespace corank

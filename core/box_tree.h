@@ -84,17 +84,17 @@ class GrowingBoxTree {
   void add(const Box& box);
   template <class Visit>
   void for_each_overlapping(const Box& x, Visit visit) const {
-    for (const Part& part : parts_) part.tree.for_each_overlapping(x, 0.0, [&](std::size_t k) { visit(part.first + k); });
+    for (const Subtree& s : subtrees_) s.tree.for_each_overlapping(x, 0.0, [&](std::size_t k) { visit(s.first + k); });
   }
 
  private:
-  struct Part {
+  struct Subtree {
     std::size_t first;
     std::vector<const Box*> boxes;
     BoxTree tree;
   };
   std::size_t sides_, size_ = 0;
-  std::vector<Part> parts_;
+  std::vector<Subtree> subtrees_;
 };
 
 }  // namespace corank

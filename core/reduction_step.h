@@ -27,13 +27,13 @@ struct SumOfEquations {
 /// A new equation Σ factor · product · equation, which serves to shrink boxes and is no part of the system. It may be named
 /// in later steps of this kind: those of a system of m equations are numbered m, m + 1 …
 struct ImpliedEquation {
-  struct Part {
+  struct Multiple {
     int equation = 0;
     ExactNumber factor;           ///< rational
     std::vector<Factor> product;  ///< of powers of variables, sorted; none: 1
-    friend bool operator==(const Part&, const Part&) = default;
+    friend bool operator==(const Multiple&, const Multiple&) = default;
   };
-  std::vector<Part> parts;
+  std::vector<Multiple> parts;
   friend bool operator==(const ImpliedEquation&, const ImpliedEquation&) = default;
 };
 

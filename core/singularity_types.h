@@ -2,12 +2,14 @@
 // = 0, m = (output, input, passive rates).
 //
 //   L_y = L without the input columns      L_z = L without the output columns      L_p = the passive columns alone
-//   g_v, g_u: the rows of L that are 0 but in the input (output) columns, those columns alone: the ties of the inputs
+//   g_v, g_u: the rows of L that are 0 but in the input (output) columns, those columns alone: the dependencies of the
+// inputs
 //
 //   RO   redundant output         rk L_y < n_u + rk L_p      (some ξ in ker L_y has an output rate ≠ 0)
 //   RI   redundant input          rk L_z < n_v + rk L_p
 //   RPM  redundant passive motion rk L_p < n_p
-//   II   impossible input         rk L_y + rk g_v < rk L     (some input rate that the ties allow cannot be had)
+//   II   impossible input         rk L_y + rk g_v < rk L     (some input rate that the dependencies allow cannot be
+// achieved)
 //   IO   impossible output        rk L_z + rk g_u < rk L
 //   IIM  increased instantaneous mobility  rk L < the number of its rows
 // The equivalences are proven in doc/theory.md, "The six types".
@@ -49,7 +51,7 @@ struct PolynomialMatrix {
 };
 
 /// Which block of L: all of it, L_y, L_z, L_p, g_v, g_u.
-enum class Block : std::uint8_t { all, forward, inverse, passive, input_ties, output_ties };
+enum class Block : std::uint8_t { all, forward, inverse, passive, input_dependencies, output_dependencies };
 inline constexpr int kBlocks = 6;
 constexpr std::size_t index(Block block) { return static_cast<std::size_t>(block); }
 

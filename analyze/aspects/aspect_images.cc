@@ -224,7 +224,7 @@ PieceImages images(SignCells& cells, const Pieces& pieces, int x, int y, int row
   Imager imager(cells, x, y, grid);
   const std::vector<bool> none(rows * rows, false);
   std::vector<std::vector<bool>> touched(n, none), covered(n, none);
-  for (const Pieces::Part& part : pieces.parts) {
+  for (const Pieces::CellPart& part : pieces.parts) {
     if (control.ended()) return {};
     const SignCell& cell = cells.cells()[part.cell];
     const std::size_t p = part.piece;
@@ -255,7 +255,7 @@ std::optional<PieceDrawing> draw(SignCells& cells, const Pieces& pieces, const s
   for (std::size_t k = 0; k < coordinates.size(); ++k) result.is_angle.push_back(drawer.is_angle(k));
   result.pieces.resize(pieces.representatives.size());
   const UpwardRounding rounding;
-  for (const Pieces::Part& part : pieces.parts) {
+  for (const Pieces::CellPart& part : pieces.parts) {
     const SignCell& cell = cells.cells()[part.cell];
     drawer.draw(cell, cell.sides, part.signs, kDepth, result.pieces[part.piece]);
   }

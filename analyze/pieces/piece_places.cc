@@ -12,7 +12,7 @@ class Places {
  public:
   Places(SignCells& cells, const Pieces& pieces)
       : cells_(cells), parts_(cells.cells().size()), tree_(box_tree(cells.cells(), &SignCell::sides)) {
-    for (const Pieces::Part& part : pieces.parts) parts_[part.cell].emplace(part.signs, part.piece);
+    for (const Pieces::CellPart& part : pieces.parts) parts_[part.cell].emplace(part.signs, part.piece);
   }
 
   int of(const Box& box) {
@@ -79,7 +79,7 @@ std::vector<int> piece_places(SignCells& cells, const Pieces& pieces, const std:
 
 std::optional<int> only_piece(const SignCells& cells, const Pieces& pieces, const Box& box, const std::vector<int>& signs) {
   std::optional<int> only;
-  for (const Pieces::Part& part : pieces.parts) {
+  for (const Pieces::CellPart& part : pieces.parts) {
     if (part.signs != signs) continue;
     const Box& sides = cells.cells()[part.cell].sides;
     if (!std::equal(box.begin(), box.end(), sides.begin(), [](const auto& x, const auto& y) { return x.overlaps(y); }))

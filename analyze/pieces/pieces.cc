@@ -45,7 +45,7 @@ class PieceCounter {
 
  private:
   enum class Kind { connected, passage, unknown };
-  struct Part {
+  struct CellPart {
     std::size_t cell;
     Signs signs;
     Kind kind;
@@ -97,7 +97,7 @@ class PieceCounter {
     tree_.for_each_overlapping(around, 0, [&](std::size_t c) {
       const auto part = part_of_[c].find(signs);
       if (part == part_of_[c].end()) return;
-      Part& p = parts_[part->second];
+      CellPart& p = parts_[part->second];
       const bool inside = is_in(point, c);
       if (inside) p.holds_solution = true;
       if (inside && !p.solution) p.solution = point;
@@ -338,7 +338,7 @@ class PieceCounter {
   certify::MeetingTest test_;
   solve::Control& control_;
   BoxTree tree_;  // of the cells
-  std::vector<Part> parts_;
+  std::vector<CellPart> parts_;
   std::vector<std::map<Signs, std::size_t>> part_of_;  // of each cell
   std::vector<End> ends_;
   std::vector<Joined> joined_;

@@ -17,15 +17,15 @@ struct Pieces {
   std::vector<Box> representatives;
   std::vector<std::vector<int>> signs;  ///< of the factors in each representative
   std::vector<std::vector<int>> free;   ///< variables that may be held at its middle to find it
-  struct Part {
+  struct CellPart {
     std::size_t cell;
     std::vector<int> signs;  ///< of all functions, the limits among them
     int piece;               ///< index of its representative
   };
-  std::vector<Part> parts;  ///< of the cells, which make the pieces
-  std::size_t cells = 0;    ///< of how many cells they are
-  std::string reason;       ///< why the bounds are apart; empty where they are not
-  PieceProof proof;         ///< of at_most, for others to check
+  std::vector<CellPart> parts;  ///< of the cells, which make the pieces
+  std::size_t cells = 0;        ///< of how many cells they are
+  std::string reason;           ///< why the bounds are apart; empty where they are not
+  PieceProof proof;             ///< of at_most, for others to check
 
   bool exact() const { return at_most && *at_most == at_least; }
 };

@@ -35,9 +35,10 @@ std::string fixed_html(const symbolic::Mechanism& mechanism) {
 /// And "tied by 1 equation" where equations speak of them alone.
 std::string chosen_and_tied_html(const symbolic::Mechanism& mechanism, const symbolic::VelocityEquation& velocity,
                                  symbolic::Role role) {
-  const std::size_t ties = velocity.ties(std::span(&role, 1)).size();
+  const std::size_t dependencies = velocity.dependencies(std::span(&role, 1)).size();
   const std::string names = chosen_html(mechanism, role);
-  return ties == 0 ? names : fmt::format("{} <small>tied by {}</small>", names, result::counted(ties, "equation"));
+  return dependencies == 0 ? names
+                           : fmt::format("{} <small>tied by {}</small>", names, result::counted(dependencies, "equation"));
 }
 
 /// Ranges that the model leaves out: "<i>x</i> in [−0.41, 1.76]".

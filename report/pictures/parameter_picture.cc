@@ -102,7 +102,7 @@ class Drawing {
   void add_dots() {
     for (const auto& c : in_.cells) {
       if (c.proven || !c.number) continue;
-      const bool covered = std::any_of(in_.boundary.begin(), in_.boundary.end(), [&](const ParameterPicture::Piece& b) {
+      const bool covered = std::any_of(in_.boundary.begin(), in_.boundary.end(), [&](const ParameterPicture::CurveBox& b) {
         return b.x.overlaps(c.x) && b.y.overlaps(c.y);
       });
       if (covered) continue;

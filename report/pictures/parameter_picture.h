@@ -17,7 +17,7 @@ struct ParameterPicture {
     std::optional<int> number;
     bool proven = false;  ///< for the whole cell; else for its centre alone
   };
-  struct Piece {
+  struct CurveBox {
     Interval x, y;
     bool proven = false;
   };
@@ -25,7 +25,7 @@ struct ParameterPicture {
   std::string x_name, y_name;
   Interval x_range, y_range;
   std::vector<Cell> cells;
-  std::vector<Piece> boundary;
+  std::vector<CurveBox> boundary;
 };
 
 /// In a format of is_portrait_format(). Throws ResultFileError where the file cannot be written.

@@ -178,8 +178,8 @@ class Reader {
     for (const std::int64_t count : counts) {
       ImpliedEquation implied;
       for (std::size_t k = take(count, row, rows.size(), "parts"); k < row; ++k) {
-        ImpliedEquation::Part& part =
-            implied.parts.emplace_back(ImpliedEquation::Part{rows[k].equation, rows[k].factor, {}});
+        ImpliedEquation::Multiple& part =
+            implied.parts.emplace_back(ImpliedEquation::Multiple{rows[k].equation, rows[k].factor, {}});
         const std::size_t first = take(rows[k].powers, power, powers.size(), "powers");
         for (std::size_t f = first; f < power; ++f) part.product.push_back(powers[f]);
       }
@@ -314,7 +314,7 @@ void write_certificates(Hdf5Writer& file, const Cover& cover, std::size_t variab
   for (const ReductionStep& step : cover.reduction) {
     if (const auto* implied = std::get_if<ImpliedEquation>(&step)) {
       parts.push_back(static_cast<std::int64_t>(implied->parts.size()));
-      for (const ImpliedEquation::Part& part : implied->parts) {
+      for (const ImpliedEquation::Multiple& part : implied->parts) {
         implied_rows.push_back({part.equation, static_cast<int>(part.product.size()), part.factor});
         powers.insert(powers.end(), part.product.begin(), part.product.end());
       }

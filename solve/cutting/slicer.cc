@@ -18,8 +18,8 @@ using certify::Sheet;
 
 }  // namespace
 
-NewtonStep Slicer::tighten(const Task& task, Piece& piece, const Preconditioner*& p, Preconditioner& own) {
-  Box& sides = piece.sides;
+NewtonStep Slicer::tighten(const Task& task, Slice& slice, const Preconditioner*& p, Preconditioner& own) {
+  Box& sides = slice.sides;
   const Preconditioner* const inherited = p;
   const auto renew = [&] {
     own = preconditioners_.at_midpoint(sides, &task.sheet.dependent, &task.sheet.equations);
@@ -29,16 +29,16 @@ NewtonStep Slicer::tighten(const Task& task, Piece& piece, const Preconditioner*
   const auto step = [&] {
     last.reset();  // its memory knows Y already
     last.emplace(certify::tighten_sheet(problem_.compiled, *p, sides, workspace_));
-    piece.spread = last->outcome().spread;
+    slice.spread = last->outcome().spread;
   };
   sides.resize(problem_.compiled.variables());
   const bool is_point = task.free.empty();
-  if (!is_point && piece.spread > kStaleSpread) renew();  // the parts of such a piece are hardly better
+  if (!is_point && slice.spread > kStaleSpread) renew();  // the parts of such a slice are hardly better
   double width = HUGE_VAL;
   for (int k = 0; k < (is_point ? kPointTightenings : kTightenings); ++k) {
     if (is_point && k > 0) renew();
     step();
-    if (piece.spread > kStaleSpread && p == inherited && !is_point) {
+    if (slice.spread > kStaleSpread && p == inherited && !is_point) {
       renew();
       step();
     }
@@ -89,20 +89,20 @@ std::optional<Location> Slicer::place(const Task& task, NewtonStep& step, const 
   return location == Location::outside ? std::nullopt : std::optional(location);
 }
 
-bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Box piece, int depth) {
-  const auto& p = preconditioners_.at_midpoint(piece, &sheet.dependent, &sheet.equations);
+bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Box slice, int depth) {
+  const auto& p = preconditioners_.at_midpoint(slice, &sheet.dependent, &sheet.equations);
   if (p.rank() != static_cast<int>(sheet.dependent.size())) return false;
-  const NewtonStep step = certify::tighten_sheet(problem_.compiled, p, piece, workspace_);
+  const NewtonStep step = certify::tighten_sheet(problem_.compiled, p, slice, workspace_);
   if (problem_.is_partial(sheet)) {
-    if (problem_.redundant.hold(problem_.domain, step, piece)) return true;
+    if (problem_.redundant.hold(problem_.domain, step, slice)) return true;
   } else {
-    const Location location = problem_.domain.locate_zeros(step, piece);
+    const Location location = problem_.domain.locate_zeros(step, slice);
     if (location != Location::across) return location == Location::inside;
   }
   if (depth == 0 || free.empty() || free.size() > kMostHalvedSides || problem_.ended()) return false;
   // Halves every free side: part number `index` takes the upper half of side f where bit f is set.
   for (unsigned index = 0; index < 1u << free.size(); ++index) {
-    Box part = piece;
+    Box part = slice;
     for (std::size_t f = 0; f < free.size(); ++f) {
       Interval& side = part[free[f]];
       side = index >> f & 1u ? Interval(side.mid(), side.hi()) : Interval(side.lo(), side.mid());
@@ -112,10 +112,10 @@ bool Slicer::holds_on_parts(const Sheet& sheet, const std::vector<int>& free, Bo
   return true;
 }
 
-void Slicer::leave_room(const Task& task, Box& piece) const {
-  for (std::size_t j = 0; j < piece.size(); ++j) {
+void Slicer::leave_room(const Task& task, Box& slice) const {
+  for (std::size_t j = 0; j < slice.size(); ++j) {
     if (std::ranges::find(task.free, static_cast<int>(j)) != task.free.end()) continue;
-    Interval& side = piece[j];
+    Interval& side = slice[j];
     const double sigma = problem_.sigma[j];
     const double size = j < problem_.compiled.scales().size() ? problem_.compiled.scales()[j] : 0;  // also about 0
     const double room =
@@ -130,15 +130,15 @@ void Slicer::leave_room(const Task& task, Box& piece) const {
   }
 }
 
-void Slicer::add(Task& task, Box piece, Location location) {
+void Slicer::add(Task& task, Box slice, Location location) {
   const Sheet& sheet = task.sheet;
   Verdict verdict = task.free.empty() ? Verdict::isolated : Verdict::regular;
   if (problem_.is_partial(sheet)) {
-    verdict = holds_on_parts(sheet, task.free, piece, kPartialDepth) ? Verdict::partial : Verdict::undecided;
-  } else if (location == Location::across && !holds_on_parts(sheet, task.free, piece, kBoundaryDepth)) {
+    verdict = holds_on_parts(sheet, task.free, slice, kPartialDepth) ? Verdict::partial : Verdict::undecided;
+  } else if (location == Location::across && !holds_on_parts(sheet, task.free, slice, kBoundaryDepth)) {
     verdict = Verdict::boundary;
   }
-  Found found{{std::move(piece), verdict, task.free}, {}, verdict == Verdict::undecided ? nullptr : task.region, {}};
+  Found found{{std::move(slice), verdict, task.free}, {}, verdict == Verdict::undecided ? nullptr : task.region, {}};
   if (task.free.empty() && verdict != Verdict::undecided) {
     Sheet narrow = sheet;
     narrow.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
@@ -203,22 +203,22 @@ void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, FoundList& f
   descend(task, {sheet.image}, p);
 }
 
-void Slicer::leave_piece(Task& task, Box sides) {
+void Slicer::leave_slice(Task& task, Box sides) {
   left_some_ = true;
   sides.resize(problem_.compiled.variables());
   if (!intersect(sides, task.x)) return leave_elsewhere();
   leave(task.found, std::move(sides));
 }
 
-void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
+void Slicer::descend(Task& task, Slice slice, const Preconditioner& inherited) {
   const std::vector<int>& free = task.free;
-  Box& sides = piece.sides;
+  Box& sides = slice.sides;
   task.ended = task.ended || (!task.whole && task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
-  if (task.ended) return leave_piece(task, std::move(sides));
+  if (task.ended) return leave_slice(task, std::move(sides));
   Preconditioner renewed;
   const Preconditioner* p = &inherited;
-  std::optional<NewtonStep> step = tighten(task, piece, p, renewed);
-  // Every solution in x with these free values lies in the piece: one that does not meet x is another box's business.
+  std::optional<NewtonStep> step = tighten(task, slice, p, renewed);
+  // Every solution in x with these free values lies in the slice: one that does not meet x is another box's business.
   const std::optional<Location> location = place(task, *step, p, sides);
   if (!location) return leave_elsewhere();
   double width = problem_.excess(sides);
@@ -226,9 +226,9 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
   if (width > 1 && !free.empty() && !task.whole) {
     parts = planner_.parts(*step, free, sides);
     const double number = std::accumulate(parts.begin(), parts.end(), 1.0, std::multiplies<>());
-    if (task.rechartable && piece.charts_tried < kMostChartsTried && number >= kPartsForAChart) {
+    if (task.rechartable && slice.charts_tried < kMostChartsTried && number >= kPartsForAChart) {
       const auto dependent = better_chart(task, sides);
-      piece.charts_tried = dependent ? piece.charts_tried + 1 : kMostChartsTried;
+      slice.charts_tried = dependent ? slice.charts_tried + 1 : kMostChartsTried;
       if (dependent && slice_in_chart(task, sides, *dependent)) return;
       if (dependent) step.reset();
     }
@@ -241,19 +241,19 @@ void Slicer::descend(Task& task, Piece piece, const Preconditioner& inherited) {
     }
   }
   // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts
-  // in a row gain nothing, the piece stays as it is, proven.
-  const int futile_cuts = width > kFutileShare * piece.former_width ? piece.futile_cuts + 1 : 0;
+  // in a row gain nothing, the slice stays as it is, proven.
+  const int futile_cuts = width > kFutileShare * slice.former_width ? slice.futile_cuts + 1 : 0;
   const auto divisible = [&](int j) { return split_point(sides[j]).has_value(); };
   if (width <= 1 || task.whole || futile_cuts > kFutileCuts || std::ranges::none_of(free, divisible)) {
     add(task, std::move(sides), *location);
     return;
   }
-  piece.former_width = width;
-  piece.futile_cuts = futile_cuts;
-  cut(task, piece, *p, std::move(step), planner_.places(sides, free, std::move(parts)));
+  slice.former_width = width;
+  slice.futile_cuts = futile_cuts;
+  cut(task, slice, *p, std::move(step), planner_.places(sides, free, std::move(parts)));
 }
 
-void Slicer::settle(const Task& task, NewtonStep& step, Part& part) {
+void Slicer::settle(const Task& task, NewtonStep& step, CutSlice& part) {
   const auto small = [&] {
     for (std::size_t j = 0; std::cmp_less(j, problem_.compiled.variables()); ++j)
       if (part.sides[j].width() > problem_.sigma[j]) return false;
@@ -268,15 +268,15 @@ void Slicer::settle(const Task& task, NewtonStep& step, Part& part) {
   const std::optional<Location> location = place(task, step, nullptr, part.sides);
   if (location == Location::across) return;  // a closer look may find it inside
   if (location && task.free.size() == 1 && excess <= kPossibleFragment) return;
-  part.fate = location ? Part::Fate::found : Part::Fate::elsewhere;
+  part.fate = location ? CutSlice::Fate::found : CutSlice::Fate::elsewhere;
 }
 
-void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, std::optional<NewtonStep> step,
+void Slicer::cut(Task& task, const Slice& slice, const Preconditioner& p, std::optional<NewtonStep> step,
                  const std::vector<std::vector<double>>& places) {
   const std::vector<int>& free = task.free;
   std::size_t count = 1;
   for (const std::vector<double>& along : places) count *= along.size() + 1;
-  std::vector<Part> all(count, Part{.sides = piece.sides});
+  std::vector<CutSlice> all(count, CutSlice{.sides = slice.sides});
   for (std::size_t index = 0; index < count; ++index) {
     // The index as a number whose last digit counts the parts along the last free side.
     std::size_t rest = index;
@@ -288,13 +288,13 @@ void Slicer::cut(Task& task, const Piece& piece, const Preconditioner& p, std::o
     if (step) settle(task, *step, all[index]);
   }
   step.reset();  // its buffers are the parts'
-  const auto finish = [&](Part& part) {
+  const auto finish = [&](CutSlice& part) {
     switch (part.fate) {
-      case Part::Fate::found: return add(task, std::move(part.sides), Location::inside);
-      case Part::Fate::elsewhere: return leave_elsewhere();
-      case Part::Fate::open:
+      case CutSlice::Fate::found: return add(task, std::move(part.sides), Location::inside);
+      case CutSlice::Fate::elsewhere: return leave_elsewhere();
+      case CutSlice::Fate::open:
         return descend(task,
-                       {std::move(part.sides), piece.former_width, piece.futile_cuts, piece.spread, piece.charts_tried}, p);
+                       {std::move(part.sides), slice.former_width, slice.futile_cuts, slice.spread, slice.charts_tried}, p);
     }
   };
   std::size_t next = 0;

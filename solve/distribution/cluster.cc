@@ -51,7 +51,7 @@ struct Coordinator::Search {
       state.cutting = true;
       state.sigma = sigma_of_search(prepared, judge.problem());
     }
-    for (Shard& shard : state.shards) parts.push_back(std::make_unique<Part>(Part{std::move(shard), {}, {}}));
+    for (Shard& shard : state.shards) parts.push_back(std::make_unique<Finished>(Finished{std::move(shard), {}, {}}));
     next_id = number_of_judge() / kNumbersOfUnit + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
     judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
@@ -118,7 +118,7 @@ struct Coordinator::Search {
       std::move(rest.boxes.begin(), rest.boxes.end(), std::back_inserter(left.left));
       begin_cutting();
     }
-    parts.push_back(std::make_unique<Part>(Part{std::move(left)}));
+    parts.push_back(std::make_unique<Finished>(Finished{std::move(left)}));
     judge.cut(all_shards());
     open_sheets.clear();
   }
@@ -126,7 +126,7 @@ struct Coordinator::Search {
   // In the arena. Bytes go as their boxes come.
   void unpack() {
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-      Part& part = *parts[i];
+      Finished& part = *parts[i];
       part.found.unpack(part.shard.found);
       part.found = {};
       part.owner.reset();
@@ -167,12 +167,12 @@ struct Coordinator::Search {
   }
 
   // What came of a unit, or was in the state from which the search goes on.
-  struct Part {
+  struct Finished {
     Shard shard;
     PackedFound found{};  // until the search is done
     std::shared_ptr<const void> owner{};
   };
-  std::int64_t of(const Part& part) const { return of(part.shard, part.found); }
+  std::int64_t of(const Finished& part) const { return of(part.shard, part.found); }
 
   // What a unit is made of, as long as it is under way.
   struct Given {
@@ -197,7 +197,7 @@ struct Coordinator::Search {
   std::uint64_t promised = 0;    // boxes, to the units that are under way
   Tally tally;
   Pool judge;
-  std::vector<std::unique_ptr<Part>> parts;
+  std::vector<std::unique_ptr<Finished>> parts;
   std::vector<Waiting> open;
   std::vector<Proven*> open_sheets;
   std::map<std::uint64_t, Given> under_way;
@@ -282,10 +282,10 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
     if (answer.id >= s.next_id) throw ShardError("the answer to a unit that was never given out");
     return false;
   }
-  for (const Received::Part& part : answer.parts)
+  for (const Received::PackedShard& part : answer.parts)
     if (part.shard.number / kNumbersOfUnit != answer.id) throw ShardError("an answer with the numbers of another unit");
   std::int64_t more = 0;
-  for (const Received::Part& part : answer.parts) more += s.of(part.shard, part.found);
+  for (const Received::PackedShard& part : answer.parts) more += s.of(part.shard, part.found);
   const std::uint64_t most = s.run.limits().memory;
   if (most > 0 && s.run.kept() + more > static_cast<std::int64_t>(most)) {
     const InStage stage(s.run, Stage::search);
@@ -294,7 +294,7 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
     return false;
   }
   s.keep(more - s.memory.of_waiting(given->second.boxes.size()));
-  for (const Received::Part& part : answer.parts) {
+  for (const Received::PackedShard& part : answer.parts) {
     s.run.count_boxes(part.shard.statistics.processed);
     s.processed += part.shard.statistics.processed;
   }
@@ -310,8 +310,8 @@ bool Coordinator::add(std::string_view bytes, std::shared_ptr<const void> owner)
     const bool any = found.size() > 0;
     s.sheets_cut += any ? found.regions() : 0;
     s.boxes_cut += any ? static_cast<double>(found.size()) : 0;
-    s.parts.push_back(std::make_unique<Search::Part>(
-        Search::Part{std::move(shard), any ? std::move(found) : PackedFound(), any ? owner : nullptr}));
+    s.parts.push_back(std::make_unique<Search::Finished>(
+        Search::Finished{std::move(shard), any ? std::move(found) : PackedFound(), any ? owner : nullptr}));
   }
   s.advance();
   return true;

@@ -28,7 +28,7 @@ std::optional<ExactNumber> fraction_of(mp_limb_t x);
 /// A row of the elimination: equation `equation` times a product.
 struct Multiple {
   Multiple(int of, const Row& terms, Powers by);
-  ImpliedEquation::Part part(const ExactNumber& factor) const;
+  ImpliedEquation::Multiple part(const ExactNumber& factor) const;
 
   int equation;
   Powers product;

@@ -199,8 +199,8 @@ Multiple::Multiple(int of, const Row& terms, Powers by) : equation(of), product(
   for (const auto& [p, c] : terms) row[times(p, product)] = c;
 }
 
-ImpliedEquation::Part Multiple::part(const ExactNumber& factor) const {
-  ImpliedEquation::Part part{equation, factor, {}};
+ImpliedEquation::Multiple Multiple::part(const ExactNumber& factor) const {
+  ImpliedEquation::Multiple part{equation, factor, {}};
   for (const auto& [variable, power] : product) part.product.push_back({variable, power});
   return part;
 }

@@ -181,14 +181,14 @@ std::vector<Shard*> Pool::shards() {
   return all;
 }
 
-std::vector<SearchView::Part> Pool::finished() {
-  std::vector<SearchView::Part> all;
+std::vector<SearchView::ShardView> Pool::finished() {
+  std::vector<SearchView::ShardView> all;
   for (const Shard& shard : earlier_) all.push_back({&shard, {}});
   for (const Worker& w : workers_) all.push_back({&w.shard, w.finished});
   return all;
 }
 
-SearchView::Part Pool::end_of_mine() {
+SearchView::ShardView Pool::end_of_mine() {
   const Shard& shard = workers_.local().shard;
   return {&shard, shard.mark()};
 }

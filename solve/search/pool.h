@@ -58,9 +58,9 @@ class Pool {
   /// Those that it was given, and its own.
   std::vector<Shard*> shards();
   /// The shards, each up to the first sheet that is not cut as it would have been, had nothing ended the search.
-  std::vector<SearchView::Part> finished();
+  std::vector<SearchView::ShardView> finished();
   /// Where the calling thread's shard ends now.
-  SearchView::Part end_of_mine();
+  SearchView::ShardView end_of_mine();
   /// Of the pool, which is not to be used any more.
   std::vector<Shard> take_shards();
 

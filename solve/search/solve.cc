@@ -88,7 +88,7 @@ class Search {
     const std::vector<Postponed> postponed = take(pool_.shards(), &Shard::postponed);
     const Work done{{}, postpone};
     SearchView before{.first = first_, .pass = done, .motions = motions, .parts = pool_.finished()};
-    const SearchView::Part mine = pool_.end_of_mine();
+    const SearchView::ShardView mine = pool_.end_of_mine();
     std::erase_if(before.parts, [&](const auto& part) { return part.shard == mine.shard; });
     before.parts.push_back(mine);
     before.postponed = &postponed;

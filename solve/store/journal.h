@@ -27,7 +27,7 @@ struct SearchState {
 
 /// The same of a search that goes on: nothing is copied.
 struct SearchView {
-  struct Part {
+  struct ShardView {
     const Shard* shard;
     std::optional<Shard::Mark> end{};     ///< what came later does not count
     const PackedFound* packed = nullptr;  ///< where given: its found boxes, of which the shard has none
@@ -37,7 +37,7 @@ struct SearchView {
   const SelfMotions& motions;
   bool cutting = false;
   Sigma sigma{};
-  std::vector<Part> parts{};
+  std::vector<ShardView> parts{};
   const std::vector<Postponed>* postponed = nullptr;  ///< where given: besides those of the parts
   double seconds = 0;
 };

@@ -58,7 +58,7 @@ void serialize(auto& archive, System& s) {
 
 void serialize(auto& archive, Elimination& e) { archive(e.variable, e.equation); }
 void serialize(auto& archive, SumOfEquations& s) { archive(s.equation, s.other, s.factor); }
-void serialize(auto& archive, ImpliedEquation::Part& p) { archive(p.equation, p.factor, p.product); }
+void serialize(auto& archive, ImpliedEquation::Multiple& p) { archive(p.equation, p.factor, p.product); }
 void serialize(auto& archive, ImpliedEquation& e) { archive(e.parts); }
 void serialize(auto& archive, Sigma& s) { archive(s.length, s.angle); }
 

@@ -205,7 +205,7 @@ std::vector<Polynomial> ratios(const Problem& problem, const Echelon& e, const s
   const auto value = [&](Eigen::Index row) { return -e.rows(row, n) * problem.compiled.scales()[e.pivots[row]]; };
   std::vector<Eigen::Index> bases;
   for (const Eigen::Index row : constants) {
-    bool tied = false;
+    bool joined = false;
     for (const Eigen::Index base : bases) {
       const auto ratio = rational_near(value(row) / value(base), longest);
       if (!ratio || ratio->is_zero()) continue;
@@ -214,10 +214,10 @@ std::vector<Polynomial> ratios(const Problem& problem, const Echelon& e, const s
       f.monomials.emplace_back(1, std::vector<Factor>{{p, 1}});
       f.monomials.emplace_back(-*ratio, std::vector<Factor>{{q, 1}});
       result.push_back(std::move(f));
-      tied = true;
+      joined = true;
       break;
     }
-    if (!tied) bases.push_back(row);
+    if (!joined) bases.push_back(row);
   }
   return result;
 }

@@ -39,7 +39,7 @@ void load(ByteInput& archive, Received& a) {
   cereal::size_type shards = 0;
   archive(a.id, cereal::make_size_tag(shards));
   for (cereal::size_type i = 0; i < shards; ++i) {
-    Received::Part& part = a.parts.emplace_back();
+    Received::PackedShard& part = a.parts.emplace_back();
     load_rest(archive, part.shard);
     part.found = packed_in(archive);
   }
@@ -48,7 +48,7 @@ void load(ByteInput& archive, Received& a) {
 namespace {
 
 // As a Shard without what is left.
-void write_part(ByteOutput& archive, const SearchView::Part& part) {
+void write_part(ByteOutput& archive, const SearchView::ShardView& part) {
   const Shard& shard = *part.shard;
   const Shard::Mark end = part.end.value_or(shard.mark());
   std::vector<const Proven*> open;  // sheets to be cut
@@ -220,7 +220,7 @@ void write(std::ostream& out, const SearchView& state) {
   archive(state.first, state.pass, state.motions.stored(), state.cutting, state.sigma, state.seconds);
   const bool more = state.postponed != nullptr;
   archive(cereal::make_size_tag(static_cast<cereal::size_type>(state.parts.size() + more)));
-  for (const SearchView::Part& part : state.parts) write_part(archive, part);
+  for (const SearchView::ShardView& part : state.parts) write_part(archive, part);
   if (!more) return;
   Shard beside(0, false);
   beside.postponed = *state.postponed;

@@ -26,12 +26,12 @@ class ShardError : public std::runtime_error {
 
 /// An answer whose boxes are as they came.
 struct Received {
-  struct Part {
+  struct PackedShard {
     Shard shard{0, false};  ///< without found boxes: those are
     PackedFound found{};
   };
   std::uint64_t id = 0;
-  std::vector<Part> parts;
+  std::vector<PackedShard> parts;
 };
 
 std::string to_bytes(const Prepared& prepared);

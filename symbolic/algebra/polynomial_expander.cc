@@ -206,13 +206,13 @@ ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e
     if (is_angle(name)) {
       const int n = whole_multiple(e, name, multiple);
       const auto fixed = fixed_angles_.find(name);
-      const auto tied = tied_angles_.find(name);
+      const auto dependent = dependent_angles_.find(name);
       if (fixed != fixed_angles_.end()) {
         offset = guarded(e, [&] { return offset + n * fixed->second; });
-      } else if (tied != tied_angles_.end()) {
-        const AngleTie& tie = tied->second;
-        angles[tie.other] += tie.sign * n;
-        quarters += tie.quarters * n;
+      } else if (dependent != dependent_angles_.end()) {
+        const DependentAngle& angle = dependent->second;
+        angles[angle.other] += angle.sign * n;
+        quarters += angle.quarters * n;
       } else {
         angles[name] += n;
       }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "corank/symbolic/algebra/angle_tie.h"
+#include "corank/symbolic/algebra/dependent_angle.h"
 #include "corank/symbolic/algebra/expanded_polynomial.h"
 #include "corank/symbolic/algebra/length_functions.h"
 #include "corank/symbolic/model/expression.h"
@@ -26,7 +26,7 @@ class PolynomialExpander {
   /// An angle of one value. It may stand where an angle may, and counts as that constant.
   void add_fixed_angle(const std::string& name, ConstantValue value) { fixed_angles_.emplace(name, std::move(value)); }
   /// sign·other + quarters·π/2, where `other` is an angle with variables.
-  void add_tied_angle(const AngleTie& tie) { tied_angles_.emplace(tie.angle, tie); }
+  void add_dependent_angle(const DependentAngle& angle) { dependent_angles_.emplace(angle.angle, angle); }
   /// Sines and cosines of lengths that polynomials hold, to be settled when all of them are made.
   LengthFunctions& length_functions() { return length_functions_; }
 
@@ -58,7 +58,7 @@ class PolynomialExpander {
   int whole_multiple(const Expression& e, const std::string& angle, const ConstantValue& multiple) const;
   CosineAndSine of_lengths(const std::map<std::string, ConstantValue>& multiples);
   bool is_angle(const std::string& name) const {
-    return angles_.contains(name) || fixed_angles_.contains(name) || tied_angles_.contains(name);
+    return angles_.contains(name) || fixed_angles_.contains(name) || dependent_angles_.contains(name);
   }
   bool has_unknown(const Expression& e) const;
   /// What an expression without unknowns is worth.
@@ -71,7 +71,7 @@ class PolynomialExpander {
   std::map<std::string, int> unknowns_;
   std::map<std::string, AngleVariables> angles_;
   std::map<std::string, ConstantValue> fixed_angles_;
-  std::map<std::string, AngleTie> tied_angles_;
+  std::map<std::string, DependentAngle> dependent_angles_;
   LengthFunctions length_functions_;
   std::string what_;      // being expanded, for messages
   SourceLocation where_;  // its place

@@ -94,7 +94,7 @@ class Algebrizer {
   void add_coordinates();
   void add_length(const Coordinate& coordinate);
   void add_angle(const Coordinate& coordinate);
-  void add_tie(const AngleTie& tie);
+  void add_dependent_angle(const DependentAngle& dependent);
   void add_kernel_unknowns();
   void add_equation(const TrigonometricSystem::Equation& equation);
   void add_inequality(const TrigonometricSystem::Equation& inequality);
@@ -109,7 +109,7 @@ class Algebrizer {
   PolynomialExpander expander_;
   std::set<std::string> names_;
   std::vector<Polynomial> angle_equations_, chords_;
-  std::vector<std::string> special_angles_;  // of one value, or tied
+  std::vector<std::string> special_angles_;  // of one value, or dependent
 };
 
 std::string equation_text(const TrigonometricSystem::Equation& equation) {
@@ -180,8 +180,8 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
     special_angles_.push_back(coordinate.name);
     angle_equations_.push_back((c - condition.value->cosine).compile("value of " + coordinate.name));
     angle_equations_.push_back((s - condition.value->sine).compile("value of " + coordinate.name));
-  } else if (in_.tie && in_.tie->angle == coordinate.name) {
-    expander_.add_tied_angle(*in_.tie);
+  } else if (in_.dependent_angle && in_.dependent_angle->angle == coordinate.name) {
+    expander_.add_dependent_angle(*in_.dependent_angle);
   } else {
     expander_.add_angle(coordinate.name, angle.cosine, angle.sine);
     angle_equations_.push_back((pow(c, 2) + pow(s, 2) - 1).compile("circle of " + coordinate.name));
@@ -194,15 +194,16 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
 }
 
 // In place of the circle, on which the other angle is.
-void Algebrizer::add_tie(const AngleTie& tie) {
-  const Expression angle = Expression::symbol(tie.angle);
-  const auto own = std::find_if(out_.angles.begin(), out_.angles.end(), [&](const Angle& a) { return a.name == tie.angle; });
+void Algebrizer::add_dependent_angle(const DependentAngle& dependent) {
+  const Expression angle = Expression::symbol(dependent.angle);
+  const auto own =
+      std::find_if(out_.angles.begin(), out_.angles.end(), [&](const Angle& a) { return a.name == dependent.angle; });
   for (const auto& [function, variable] : {std::pair("cos", own->cosine), std::pair("sin", own->sine)}) {
     const ExpandedPolynomial value =
-        expander_.polynomial(Expression::function(function, {angle}), tie.text(), {in_.name, 0, 0});
-    angle_equations_.push_back((ExpandedPolynomial::variable(variable) - value).compile(tie.text()));
+        expander_.polynomial(Expression::function(function, {angle}), dependent.text(), {in_.name, 0, 0});
+    angle_equations_.push_back((ExpandedPolynomial::variable(variable) - value).compile(dependent.text()));
   }
-  special_angles_.insert(special_angles_.end(), {tie.angle, tie.other});
+  special_angles_.insert(special_angles_.end(), {dependent.angle, dependent.other});
 }
 
 void Algebrizer::add_kernel_unknowns() {
@@ -229,7 +230,7 @@ void Algebrizer::add_equation(const TrigonometricSystem::Equation& equation) {
   Polynomial polynomial = difference(equation).compile(equation.source);
   if (polynomial.monomials.empty()) {
     // A kernel row that the constants make zero says nothing about xi, and where an angle has one value, or
-    // is tied to another, an equation may say nothing there. Any other equation of the model that says nothing is a mistake.
+    // depends on another, an equation may say nothing there. Any other equation of the model that says nothing is a mistake.
     if (equation.of_kernel || mentions(equation.relation, special_angles_)) return;
     throw ModelError(equation.where, "the equation " + equation_text(equation) + " always holds",
                      "an equation between unknowns");
@@ -276,7 +277,7 @@ void Algebrizer::add_coordinates() {
     coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(coordinate);
     for (auto v = first; v < out_.variables.size(); ++v) out_.variables[v].auxiliary = coordinate.auxiliary;
   }
-  if (in_.tie) add_tie(*in_.tie);
+  if (in_.dependent_angle) add_dependent_angle(*in_.dependent_angle);
 }
 
 System Algebrizer::run() {
@@ -295,7 +296,7 @@ System Algebrizer::run() {
     if (!equation.of_kernel) add_equation(equation);
   out_.equations.insert(out_.equations.end(), angle_equations_.begin(), angle_equations_.end());
   for (const auto& equation : in_.equations)
-    if (equation.of_kernel && !equation.is_tie) add_equation(equation);
+    if (equation.of_kernel && !equation.is_dependent_angle) add_equation(equation);
   for (const auto& inequality : in_.inequalities) add_inequality(inequality);
   for (const auto& claim : in_.claimed) out_.claimed.push_back(difference(claim).compile(claim.source));
   out_.inequalities.insert(out_.inequalities.end(), chords_.begin(), chords_.end());

@@ -24,7 +24,8 @@ struct Outline {
   VelocityEquation velocity;
   std::vector<Expression> phi;
   long mobility = 0;
-  long ties = 0, free = 0;  // outputs that are tied, and others: below 0 where more rows are ties than there are outputs
+  long dependencies = 0,
+       free = 0;  // outputs less dependencies are free: below 0 where more rows are those than there are outputs
 };
 
 Outline outline(const Mechanism& mechanism) {
@@ -38,8 +39,8 @@ Outline outline(const Mechanism& mechanism) {
   o.phi = std::move(derivation.phi);
   o.mobility = std::ssize(o.velocity.matrix.columns) - std::ssize(o.phi);
   const Role output = Role::output;
-  o.ties = std::ssize(o.velocity.ties(std::span(&output, 1)));
-  o.free = std::ssize(mechanism.outputs()) - o.ties;
+  o.dependencies = std::ssize(o.velocity.dependencies(std::span(&output, 1)));
+  o.free = std::ssize(mechanism.outputs()) - o.dependencies;
   if (o.phi.empty() || o.free > o.mobility || o.free < 1)
     throw ModelError(where,
                      "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(o.free) +
@@ -69,7 +70,7 @@ void add_choices(const std::vector<Limit>& limits, std::size_t from, std::size_t
 KernelQuestion question(const Outline& o, const BoundaryPart& part) {
   const SetDefinition& set = definition(SingularitySet::boundary);
   KernelQuestion kernel{set, set.matrix, o.velocity.without(set.locked), o.velocity.where, KernelSide::left, {}, {}};
-  kernel.drop(o.velocity.ties(set.locked));
+  kernel.drop(o.velocity.dependencies(set.locked));
   ExpressionMatrix& m = kernel.matrix;
   for (const Active& active : part.active) {
     const auto at = std::find(m.columns.begin(), m.columns.end(), active.coordinate) - m.columns.begin();
@@ -169,7 +170,7 @@ KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& p
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
                                         const TrigonometricSystem& system) {
   const Outline o = outline(mechanism);
-  if (o.ties > 0) return std::nullopt;
+  if (o.dependencies > 0) return std::nullopt;
   if (part.of_output) return form_of_output(mechanism, part.active.front());
   const KernelQuestion kernel = question(o, part);
   PassageForm form;

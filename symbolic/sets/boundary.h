@@ -40,12 +40,12 @@ struct BoundaryPart {
 /// more of them than its mobility, or there are more than 1000 parts.
 std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism);
 
-/// What the kernel vector λ of a part that is not of an output is asked of. Rows of Φ_z that are 0 (ties of the outputs)
-/// have none. A mechanism's own velocity equation has no say.
+/// What the kernel vector λ of a part that is not of an output is asked of. Rows of Φ_z that are 0 (dependencies of the
+/// outputs) have none. A mechanism's own velocity equation has no say.
 KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& part);
 
-/// What decides about the passage, over algebrize(system), where `system` is the part's. Nothing where outputs are tied, or
-/// the equations hold sines of lengths.
+/// What decides about the passage, over algebrize(system), where `system` is the part's. Nothing where outputs have
+/// dependencies, or the equations hold sines of lengths.
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
                                         const TrigonometricSystem& system);
 

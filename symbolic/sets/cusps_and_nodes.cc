@@ -35,7 +35,7 @@ LocusByCoordinates locus_by_coordinates(const Mechanism& mechanism, SingularityS
   const VelocityEquation velocity = derive(plain).velocity;
   KernelQuestion kernel = kernel_question(plain, set, KernelSide::right);
   const std::size_t columns = kernel.matrix.columns.size(), equations = velocity.matrix.rows.size(),
-                    rows = equations - velocity.ties(kernel.set.locked).size();
+                    rows = equations - velocity.dependencies(kernel.set.locked).size();
   if (rows != columns)
     throw ModelError(model_place(mechanism),
                      kernel.name + " has " + std::to_string(rows) + " rows and " + std::to_string(columns) +
@@ -170,7 +170,7 @@ TrigonometricSystem cusp_system(const Mechanism& mechanism, SingularitySet set, 
   const std::vector<Derivatives> of_phi = derivatives(locus.mechanism, m.columns);
   for (std::size_t i = 0; i < m.rows.size(); ++i) {
     const auto lhs = kernel_row(m.rows[i], accelerations);
-    if (!lhs) continue;  // a tie: it holds no coordinate that is not locked
+    if (!lhs) continue;  // a dependency: it holds no coordinate that is not locked
     std::vector<Expression> terms = lhs->kind() == Expression::Kind::sum ? lhs->operands() : std::vector{*lhs};
     for (const Expression& term : second_order(of_phi[i].second, rates)) terms.push_back(factor * term);
     add(sum_of(terms) == Expression(0), row_name(locus, i, "eta + tau D^2 Phi(xi, xi) = 0"), locus.kernel.where[i]);

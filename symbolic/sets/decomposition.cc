@@ -51,9 +51,9 @@ class Space {
   std::size_t index(const std::string& angle) const { return mechanism_.find_coordinate(angle); }
 
   // Else an equation is a contradiction.
-  bool has_system(const AngleTie& tie) const {
+  bool has_system(const DependentAngle& angle) const {
     TrigonometricSystem system = equations_;
-    system.tie = tie;
+    system.dependent_angle = angle;
     try {
       static_cast<void>(algebrize(system));
     } catch (const ModelError&) {
@@ -103,7 +103,7 @@ std::optional<Product> product_of(Expression e) {
 
 // Of ±(sin a cos b ∓ cos a sin b) and ±(cos a cos b ± sin a sin b), which are sin(a ∓ b) and cos(a ∓ b): a ∓ b is one of two
 // values.
-std::vector<AngleTie> ties_of(const Space& space, const Expression& condition) {
+std::vector<DependentAngle> dependent_angles_of(const Space& space, const Expression& condition) {
   if (condition.kind() != Expression::Kind::sum || condition.operands().size() != 2) return {};
   const auto p = product_of(condition.operands()[0]);
   auto q = product_of(condition.operands()[1]);
@@ -118,10 +118,11 @@ std::vector<AngleTie> ties_of(const Space& space, const Expression& condition) {
   // Sine or cosine of the sum or the difference of both: of products of a sine and a cosine, or of two of a kind.
   const bool is_sine = p->first.is_sine != p->second.is_sine, same = p->sign == q->sign;
   const int sign = is_sine == same ? -1 : 1;  // sin(a + b) = 0: a = −b; cos(a − b) = 0: a = b ± π/2
-  std::vector<AngleTie> ties;
-  for (const int quarters : {0, 2}) ties.push_back({later, earlier, sign, quarters + (is_sine ? 0 : 1)});
-  const bool both = std::all_of(ties.begin(), ties.end(), [&](const AngleTie& tie) { return space.has_system(tie); });
-  return both ? ties : std::vector<AngleTie>{};
+  std::vector<DependentAngle> angles;
+  for (const int quarters : {0, 2}) angles.push_back({later, earlier, sign, quarters + (is_sine ? 0 : 1)});
+  const bool both =
+      std::all_of(angles.begin(), angles.end(), [&](const DependentAngle& angle) { return space.has_system(angle); });
+  return both ? angles : std::vector<DependentAngle>{};
 }
 
 // Angles that have one value are replaced by it where their sines and cosines are 0 or ±1. Of another value cos² + sin² = 1
@@ -248,9 +249,9 @@ class Decomposer {
 
   void add_conditions(const std::vector<Expression>& conditions) {
     for (const Expression& condition : conditions) {
-      const std::vector<AngleTie> ties = ties_of(space_, condition);
-      for (const AngleTie& tie : ties) add({tie.text(), tie, {}, matrix_.is_explicit()});
-      if (!ties.empty()) continue;
+      const std::vector<DependentAngle> angles = dependent_angles_of(space_, condition);
+      for (const DependentAngle& angle : angles) add({angle.text(), angle, {}, matrix_.is_explicit()});
+      if (!angles.empty()) continue;
       add({name_of(condition), {}, condition, matrix_.is_explicit()});
     }
   }
@@ -271,7 +272,7 @@ std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestio
     fixed.put_into(phi);
     for (std::vector<Expression>& row : matrix.rows) fixed.put_into(row);
   }
-  // A row of zeros, which a tie has, says nothing about the kernel.
+  // A row of zeros, which a dependency has, says nothing about the kernel.
   std::erase_if(matrix.rows, [](const std::vector<Expression>& row) {
     return std::all_of(row.begin(), row.end(), [](const Expression& e) { return same_tree(e, 0); });
   });

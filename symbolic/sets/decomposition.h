@@ -18,10 +18,10 @@
 
 namespace corank::symbolic {
 
-/// { q : Φ(q) = 0 and one of tie, condition = 0, block singular }.
+/// { q : Φ(q) = 0 and one of dependent_angle, condition = 0, block singular }.
 struct Component {
-  std::string name;               ///< "phi_rod1 = theta1", "x_C = 0", "condition on theta1, theta2, theta3 (2)"
-  std::optional<AngleTie> tie{};  ///< of sin(a ∓ b) = 0 or cos(a ∓ b) = 0, each a part for either way
+  std::string name;  ///< "phi_rod1 = theta1", "x_C = 0", "condition on theta1, theta2, theta3 (2)"
+  std::optional<DependentAngle> dependent_angle{};  ///< of sin(a ∓ b) = 0 or cos(a ∓ b) = 0, each a part for either way
   std::optional<Expression> condition{};
   /// Φ gives all other coordinates as polynomials in those that the condition and its own may hold, as an arm's joints give
   /// its links: the part is a hypersurface among free coordinates.
@@ -29,7 +29,9 @@ struct Component {
   std::optional<ExpressionMatrix> block{};  ///< with a kernel vector: more than three rows whose determinant is no product
 
   /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.
-  std::string relation() const { return tie ? tie->text() : condition ? condition->text() + " = 0" : ""; }
+  std::string relation() const {
+    return dependent_angle ? dependent_angle->text() : condition ? condition->text() + " = 0" : "";
+  }
   friend bool operator==(const Component& a, const Component& b) {
     return a.name == b.name || (!a.block && a.relation() == b.relation());
   }

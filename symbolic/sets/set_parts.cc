@@ -63,8 +63,8 @@ void SetEquations::set_at_limits(const BoundaryPart& part, TrigonometricSystem& 
 
 void SetEquations::add_condition(const Component& part, TrigonometricSystem& system) const {
   const SourceLocation where{mechanism_.name(), 0, 0};
-  system.tie = part.tie;
-  if (part.tie) system.equations.push_back({part.tie->relation(), part.name, where, true, true});
+  system.dependent_angle = part.dependent_angle;
+  if (part.dependent_angle) system.equations.push_back({part.dependent_angle->relation(), part.name, where, true, true});
   if (part.condition) system.equations.push_back({*part.condition == Expression(0), part.name, where, true});
 }
 

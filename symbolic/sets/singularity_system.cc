@@ -29,14 +29,14 @@ Counted words_for(const VelocityEquation& velocity) {
 struct Chosen {
   Role role;
   std::vector<std::string> names;
-  std::vector<std::size_t> ties;
+  std::vector<std::size_t> dependencies;
   std::string noun;
   SourceLocation where;
-  std::string examples = " (w @ unit and R @ rotation have theirs)";  // of ties
+  std::string examples = " (w @ unit and R @ rotation have theirs)";  // of dependencies
 };
 
 Chosen chosen(const Mechanism& mechanism, const VelocityEquation& velocity, Role role) {
-  Chosen result{role, velocity.names_of(role), velocity.ties(std::span(&role, 1)), to_string(role), {}};
+  Chosen result{role, velocity.names_of(role), velocity.dependencies(std::span(&role, 1)), to_string(role), {}};
   if (!velocity.given) {
     result.where = role == Role::input ? mechanism.inputs_where() : mechanism.outputs_where();
   } else if (!result.names.empty()) {
@@ -49,15 +49,16 @@ Chosen chosen(const Mechanism& mechanism, const VelocityEquation& velocity, Role
 
 // What would do, where the mobility is `wanted`.
 std::string wanted_text(const Chosen& chosen, std::size_t wanted) {
-  if (chosen.names.size() <= wanted + chosen.ties.size())
-    return count(wanted + chosen.ties.size(), chosen.noun) + (chosen.ties.empty() ? "" : " with these ties");
-  const std::size_t more = chosen.names.size() - chosen.ties.size() - wanted;
-  return count(wanted, chosen.noun) + ", or " + count(more, chosen.ties.empty() ? "equation" : "more equation") + " in " +
-         chosen.noun + "s only that " + (more == 1 ? "ties" : "tie") + " them" + chosen.examples;
+  if (chosen.names.size() <= wanted + chosen.dependencies.size())
+    return count(wanted + chosen.dependencies.size(), chosen.noun) +
+           (chosen.dependencies.empty() ? "" : " with these dependencies");
+  const std::size_t more = chosen.names.size() - chosen.dependencies.size() - wanted;
+  return count(wanted, chosen.noun) + ", or " + count(more, chosen.dependencies.empty() ? "equation" : "more equation") +
+         " in " + chosen.noun + "s only that " + (more == 1 ? "ties" : "tie") + " them" + chosen.examples;
 }
 
-// Inputs less their ties are as many as the mobility, or more (redundantly actuated: L_y is tall); outputs as many, or less
-// (kinematically redundant: L_z is wide). With fewer inputs or more outputs every configuration would be singular.
+// Inputs less their dependencies are as many as the mobility, or more (redundantly actuated: L_y is tall); outputs as many,
+// or less (kinematically redundant: L_z is wide). With fewer inputs or more outputs every configuration would be singular.
 void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity, const Chosen& chosen) {
   const SourceLocation where = chosen.where.line > 0 ? chosen.where : model_place(mechanism);
   const std::size_t equations = velocity.matrix.rows.size(), columns = velocity.matrix.columns.size();
@@ -66,12 +67,12 @@ void check_mobility(const Mechanism& mechanism, const VelocityEquation& velocity
     throw ModelError(where, "every " + words.column + " is an " + chosen.noun + ", so nothing can move when they are locked",
                      words.column + "s that are not " + chosen.noun + "s");
   const auto mobility = static_cast<long>(columns) - static_cast<long>(equations);
-  const long free = static_cast<long>(chosen.names.size()) - static_cast<long>(chosen.ties.size());
+  const long free = static_cast<long>(chosen.names.size()) - static_cast<long>(chosen.dependencies.size());
   if (mobility >= 0 && (chosen.role == Role::input ? free >= mobility : free <= mobility)) return;
   std::string problem = "the mechanism has " + count(columns, words.column) + " and " + count(equations, words.row) +
                         ", so mobility " + std::to_string(mobility) + ", but " + count(chosen.names.size(), chosen.noun);
-  if (!chosen.ties.empty())
-    problem += " tied by " + count(chosen.ties.size(), "equation") + ", so " + std::to_string(free) + " free";
+  if (!chosen.dependencies.empty())
+    problem += " tied by " + count(chosen.dependencies.size(), "equation") + ", so " + std::to_string(free) + " free";
   if (mobility >= 0 && free > mobility) problem += ": they are not independent";
   throw ModelError(
       where, problem,
@@ -111,9 +112,9 @@ void check_whole(const Mechanism& mechanism, const VelocityEquation& velocity, c
 }
 
 // A matrix that is not square has one kernel everywhere; the other tells where it loses rank.
-KernelSide side_of(const Mechanism& mechanism, const KernelQuestion& kernel, std::size_t ties,
+KernelSide side_of(const Mechanism& mechanism, const KernelQuestion& kernel, std::size_t dependencies,
                    std::optional<KernelSide> asked) {
-  const std::size_t rows = kernel.matrix.rows.size() - ties, columns = kernel.matrix.columns.size();
+  const std::size_t rows = kernel.matrix.rows.size() - dependencies, columns = kernel.matrix.columns.size();
   const KernelSide only = rows > columns ? KernelSide::right : KernelSide::left;
   if (rows == columns || kernel.set.locked.empty()) {
     if (asked && kernel.set.one_side && *asked != kernel.set.side)
@@ -122,8 +123,9 @@ KernelSide side_of(const Mechanism& mechanism, const KernelQuestion& kernel, std
                        std::string("the ") + to_string(kernel.set.side) + " kernel");
     return asked.value_or(kernel.set.side);
   }
-  const std::string shape = kernel.name + " has " + count(rows, "row") + (ties > 0 ? " (without those of ties)" : "") +
-                            " and " + count(columns, "column");
+  const std::string shape = kernel.name + " has " + count(rows, "row") +
+                            (dependencies > 0 ? " (without those of dependencies)" : "") + " and " +
+                            count(columns, "column");
   if (kernel.set.type && kernel.set.side != only) {
     const bool passive = kernel.set.type == SingularityType::rpm;
     throw ModelError(model_place(mechanism),
@@ -146,7 +148,7 @@ KernelSide side_of(const Mechanism& mechanism, const KernelQuestion& kernel, std
 KernelQuestion question_of(const Mechanism& mechanism, const VelocityEquation& velocity, const SetDefinition& set,
                            std::span<const Role> locked, const std::string& name, std::optional<KernelSide> side) {
   KernelQuestion kernel{set, name, velocity.without(locked), velocity.where, {}, {}};
-  const std::vector<std::size_t> ties = velocity.ties(locked);
+  const std::vector<std::size_t> dependencies = velocity.dependencies(locked);
   if (locked.empty()) {
     check_whole(mechanism, velocity, kernel.name, side.value_or(set.side));
   } else {
@@ -156,11 +158,11 @@ KernelQuestion question_of(const Mechanism& mechanism, const VelocityEquation& v
     throw ModelError(model_place(mechanism),
                      "there are no passive " + words_for(velocity).column + "s, so " + name + " has no columns",
                      "passive " + words_for(velocity).column + "s");
-  kernel.side = side_of(mechanism, kernel, ties.size(), side);
+  kernel.side = side_of(mechanism, kernel, dependencies.size(), side);
   // Lemma (doc/theory.md): a matrix and the same without rows of zeros have the same right kernel, which passes them over; a
   // left one would have an unknown that nothing is asked of.
   if (kernel.side == KernelSide::right) return kernel;
-  kernel.drop(ties);
+  kernel.drop(dependencies);
   return kernel;
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/symbolic/algebra/angle_tie.h"
+#include "corank/symbolic/algebra/dependent_angle.h"
 #include "corank/symbolic/model/mechanism.h"
 #include "corank/symbolic/velocity/passive_rates.h"
 #include "corank/symbolic/velocity/velocity_equation.h"
@@ -33,14 +33,14 @@ struct TrigonometricSystem {
     std::string name;
     int lower = -1, upper = 1;
   };
-  std::vector<Unknown> further_unknowns;  ///< of cusps and nodes, in place of kernel unknowns
-  std::optional<AngleTie> tie{};          ///< of angles that have more than one value
+  std::vector<Unknown> further_unknowns;            ///< of cusps and nodes, in place of kernel unknowns
+  std::optional<DependentAngle> dependent_angle{};  ///< of angles that have more than one value
   struct Equation {
     Relation relation;
     std::string source;  ///< "dextar.cuik:17", "row 3 of L_y xi = 0", "norm of xi" …
     SourceLocation where;
-    bool of_kernel = false;  ///< about ξ, not q alone
-    bool is_tie = false;     ///< what `tie` says, in words
+    bool of_kernel = false;           ///< about ξ, not q alone
+    bool is_dependent_angle = false;  ///< what `dependent_angle` says, in words
   };
   std::vector<Equation> equations;     ///< all with =
   std::vector<Equation> inequalities;  ///< ≤ or ≥
@@ -54,11 +54,11 @@ struct KernelQuestion {
   ExpressionMatrix matrix;            ///< M: L without the locked columns and the dropped rows
   std::vector<SourceLocation> where;  ///< of its rows
   KernelSide side;
-  std::vector<std::size_t> dropped;    ///< of a left kernel: the rows of L that are ties, and not in M
+  std::vector<std::size_t> dropped;    ///< of a left kernel: the rows of L that are dependencies, and not in M
   PassiveRates passive{};              ///< of M, where they are eliminated
   std::vector<KernelQuestion> also{};  ///< one more, where the set asks for two kernels
 
-  /// Leaves rows out of M, those of ties.
+  /// Leaves rows out of M, those of dependencies.
   void drop(const std::vector<std::size_t>& rows);
 };
 
@@ -73,10 +73,10 @@ KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion 
 /// that drops −ξ; the same of eta where the set has a second kernel. Default kernel: that of the set's definition where the
 /// matrix is square, right where it is tall (a redundantly actuated mechanism's L_y, L_p), left where it is wide (a
 /// kinematically redundant one's L_z, Φ_q). The other side of a matrix that is not square has a kernel everywhere.
-/// L_y and L_z are taken without the zero rows of ties (VelocityEquation): ker L_z is the same without them, at every
-/// configuration, and what is left is square where the outputs less their ties are as many as the mobility (doc/theory.md,
-/// "Tied outputs and inputs"). `scales`: of each kernel unknown, the number by which its column is multiplied
-/// (symbolic/sets/kernel_scale.h), a rational number's text; none: all are 1.
+/// L_y and L_z are taken without the zero rows of dependencies (VelocityEquation): ker L_z is the same without them, at
+/// every configuration, and what is left is square where the outputs less their dependencies are as many as the mobility
+/// (doc/theory.md, "Outputs and inputs with dependencies"). `scales`: of each kernel unknown, the number by which its column
+/// is multiplied (symbolic/sets/kernel_scale.h), a rational number's text; none: all are 1.
 /// `corank` c: the configurations where M's kernel K has dimension c at least. The system asks for c orthonormal kernel
 /// vectors ξ¹ … ξᶜ with
 ///   a_i·ξʲ = 0 for i < j,   a_j·ξʲ ≥ 0,
@@ -86,8 +86,8 @@ KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion 
 /// a_(c−1) on K are dependent (for c = 2: K ⊥ a_1, two conditions on K): there, and where dim K > c, they are a continuum
 /// over one q. With a square M these are c² equations more than there are components of the vectors: the set's expected
 /// dimension is that of C-space less c². Where that is below 0 the system is over-determined.
-/// Throws ModelError where inputs or outputs are missing, there are, less their ties, fewer inputs or more outputs than the
-/// mobility, the columns of L less its rows, a kernel is asked for that there is everywhere, or a corank that is
+/// Throws ModelError where inputs or outputs are missing, there are, less their dependencies, fewer inputs or more outputs
+/// than the mobility, the columns of L less its rows, a kernel is asked for that there is everywhere, or a corank that is
 /// not in 1 … the number of the kernel's unknowns (1 for cspace, which has none).
 TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySet set,
                                        std::optional<KernelSide> side = std::nullopt,

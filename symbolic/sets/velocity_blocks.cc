@@ -17,10 +17,10 @@ Block block_of(std::span<const Role> locked) {
   return locked.front() == Role::input ? Block::forward : Block::inverse;
 }
 
-// The tied rows, in the columns of the role alone.
-ExpressionMatrix ties_of(const VelocityEquation& velocity, Role role) {
+// The rows of dependencies, in the columns of the role alone.
+ExpressionMatrix dependent_angles_of(const VelocityEquation& velocity, Role role) {
   ExpressionMatrix result;
-  for (const std::size_t i : velocity.ties(std::span(&role, 1))) {
+  for (const std::size_t i : velocity.dependencies(std::span(&role, 1))) {
     std::vector<Expression>& row = result.rows.emplace_back();
     for (std::size_t j = 0; j < velocity.matrix.columns.size(); ++j)
       if (velocity.matrix.roles[j] == role) row.push_back(velocity.matrix.rows[i][j]);
@@ -41,8 +41,8 @@ int rank_at_most(const PolynomialMatrix& m) {
 TypeSet asked_types(const VelocityEquation& velocity, int inputs, int outputs) {
   using enum SingularityType;
   const int mobility = static_cast<int>(velocity.matrix.columns.size()) - static_cast<int>(velocity.matrix.rows.size());
-  const int free_inputs = inputs - static_cast<int>(velocity.ties(kInputs).size()),
-            free_outputs = outputs - static_cast<int>(velocity.ties(kOutputs).size());
+  const int free_inputs = inputs - static_cast<int>(velocity.dependencies(kInputs).size()),
+            free_outputs = outputs - static_cast<int>(velocity.dependencies(kOutputs).size());
   TypeSet asked = bit(iim);
   const bool held = inputs > 0 && free_inputs >= mobility, chosen = outputs > 0 && free_outputs <= mobility;
   if (!held || !chosen) return asked;
@@ -73,9 +73,12 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
   blocks.outputs = static_cast<int>(velocity.names_of(Role::output).size());
   blocks.passive = static_cast<int>(velocity.names_of(Role::passive).size());
   blocks.asked = asked_types(velocity, blocks.inputs, blocks.outputs);
-  const std::array<ExpressionMatrix, kBlocks> matrices{velocity.without({}),           velocity.without(kInputs),
-                                                       velocity.without(kOutputs),     velocity.without(kChosen),
-                                                       ties_of(velocity, Role::input), ties_of(velocity, Role::output)};
+  const std::array<ExpressionMatrix, kBlocks> matrices{velocity.without({}),
+                                                       velocity.without(kInputs),
+                                                       velocity.without(kOutputs),
+                                                       velocity.without(kChosen),
+                                                       dependent_angles_of(velocity, Role::input),
+                                                       dependent_angles_of(velocity, Role::output)};
   std::vector<Expression> entries;
   for (const ExpressionMatrix& m : matrices)
     for (const auto& row : m.rows) entries.insert(entries.end(), row.begin(), row.end());
@@ -101,7 +104,7 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
     int& most = blocks.at_most[static_cast<std::size_t>(block)];
     most = std::min(most, static_cast<int>(unknowns) - corank);
     ExpressionMatrix square = kernel.matrix;
-    if (kernel.side == KernelSide::right) square.rows.resize(square.rows.size() - velocity.ties(locked).size());
+    if (kernel.side == KernelSide::right) square.rows.resize(square.rows.size() - velocity.dependencies(locked).size());
     blocks.of_set |= types_of(kernel.set, block, kernel.side, square);
   };
   const KernelQuestion kernel = kernel_question(mechanism, set, side);

@@ -169,7 +169,7 @@ ExpressionMatrix VelocityEquation::without(std::span<const Role> locked) const {
   return result;
 }
 
-std::vector<std::size_t> VelocityEquation::ties(std::span<const Role> locked) const {
+std::vector<std::size_t> VelocityEquation::dependencies(std::span<const Role> locked) const {
   const ExpressionMatrix left = without(locked);
   std::vector<std::size_t> rows;
   if (left.columns.empty() || left.columns.size() == matrix.columns.size()) return rows;

@@ -37,7 +37,7 @@ struct VelocityEquation {
   std::vector<std::string> names_of(Role role) const;
   /// Its rows of zeros, where columns went: equations in the locked coordinates and constants alone, such as a unit vector's
   /// norm. They leave the right kernel as it is; for each, one more coordinate than the mobility may be locked.
-  std::vector<std::size_t> ties(std::span<const Role> locked) const;
+  std::vector<std::size_t> dependencies(std::span<const Role> locked) const;
 };
 
 /// Φ, n_e expressions, and L.

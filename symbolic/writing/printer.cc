@@ -255,7 +255,7 @@ std::string to_text(const Derivation& derivation, std::span<const TrigonometricS
     if (set.locked.empty() || !set.is_usual()) continue;
     out << "\n";
     print_matrix(out, set.matrix, derivation.velocity.without(set.locked));
-    print_ties(out, std::string(to_string(set.locked.front())) + "s", derivation.velocity.ties(set.locked));
+    print_ties(out, std::string(to_string(set.locked.front())) + "s", derivation.velocity.dependencies(set.locked));
   }
   for (const TrigonometricSystem& system : systems) {
     out << "\nSystem " << system.name << "\n";

@@ -1,6 +1,6 @@
-// Interval operations and panels on hard inputs, against Arb: whatever numbers the operands hold, the result holds the
+// Interval operations and matrices on hard inputs, against Arb: whatever numbers the operands hold, the result holds the
 // number that comes of them. RC_PARAMS=max_success=100000 ./certify_test --gtest_filter='*Contain*' looks further.
-#include "corank/certify/panel.h"
+#include "corank/certify/slope_matrix.h"
 #include "corank/core/interval.h"
 #include "corank/tests/certify/adversary.h"
 #include "corank/tests/system_builder.h"
@@ -95,7 +95,7 @@ RC_GTEST_PROP(IntervalContainment, OfWidthMiddleAndMagnitudes, ()) {
   if (x.is_bounded()) RC_ASSERT(upward([&] { return std::isfinite(x.mid()) && x.contains(x.mid()); }));
 }
 
-// A dense r×n panel Y·S, with a member of each entry of S.
+// A dense r×n matrix Y·S, with a member of each entry of S.
 struct Dense {
   int r = *rc::gen::inRange(1, 6), n = r + *rc::gen::inRange(0, 3);
   std::vector<double> y, member_of_s;
@@ -126,16 +126,16 @@ struct Dense {
 
 RC_GTEST_PROP(PanelContainment, OfProductsWithMatricesAndVectors, ()) {
   const Dense d;
-  Panel panel;
-  panel.set_matrix(d.y, d.r);
-  if (upward([&] { return panel.assign_product(d.system, d.equations, d.s); })) {
+  SlopeMatrix matrix;
+  matrix.set_matrix(d.y, d.r);
+  if (upward([&] { return matrix.assign_product(d.system, d.equations, d.s); })) {
     for (int a = 0; a < d.r; ++a)
-      for (int j = 0; j < d.n; ++j) RC_ASSERT(d.product(a, j).in(panel.at(a, j)));
+      for (int j = 0; j < d.n; ++j) RC_ASSERT(d.product(a, j).in(matrix.at(a, j)));
   }
   std::vector<Interval> values, result;
   std::vector<double> members;
   for (int b = 0; b < d.r; ++b) values.push_back(bounded_interval()), members.push_back(member(values.back()));
-  upward([&] { return panel.multiply(values, result), 0; });
+  upward([&] { return matrix.multiply(values, result), 0; });
   for (int a = 0; a < d.r; ++a) {
     Ball sum;
     for (int b = 0; b < d.r; ++b)
@@ -147,9 +147,9 @@ RC_GTEST_PROP(PanelContainment, OfProductsWithMatricesAndVectors, ()) {
 
 RC_GTEST_PROP(PanelContainment, OfSumsWithAnotherDiagonal, ()) {
   const Dense d;
-  Panel panel;
-  panel.set_matrix(d.y, d.r);
-  RC_PRE(upward([&] { return panel.assign_product(d.system, d.equations, d.s); }));
+  SlopeMatrix matrix;
+  matrix.set_matrix(d.y, d.r);
+  RC_PRE(upward([&] { return matrix.assign_product(d.system, d.equations, d.s); }));
   std::vector<Interval> offset, sums;
   std::vector<double> offset_members, sum_members;
   std::vector<int> dependent;
@@ -158,15 +158,15 @@ RC_GTEST_PROP(PanelContainment, OfSumsWithAnotherDiagonal, ()) {
     sums.push_back(any_interval()), sum_members.push_back(member(sums.back()));
     dependent.push_back(d.n - 1 - a);
   }
-  for (const auto diagonal : {Panel::Diagonal::zero, Panel::Diagonal::minus_one}) {
+  for (const auto diagonal : {SlopeMatrix::Diagonal::zero, SlopeMatrix::Diagonal::minus_one}) {
     std::vector<Interval> result = sums;
-    upward([&] { return panel.accumulate(offset.data(), dependent, diagonal, result), 0; });
+    upward([&] { return matrix.accumulate(offset.data(), dependent, diagonal, result), 0; });
     for (int a = 0; a < d.r; ++a) {
       const std::size_t k = static_cast<std::size_t>(a);
       Ball sum(sum_members[k]);
       for (int j = 0; j < d.n; ++j) {
         Ball entry = d.product(a, j);
-        if (j == dependent[k]) entry = diagonal == Panel::Diagonal::zero ? Ball(0.0) : entry - Ball(1.0);
+        if (j == dependent[k]) entry = diagonal == SlopeMatrix::Diagonal::zero ? Ball(0.0) : entry - Ball(1.0);
         sum = sum + entry * offset_members[static_cast<std::size_t>(j)];
       }
       RC_LOG() << shown(result[k]) << '\n';

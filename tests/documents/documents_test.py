@@ -55,6 +55,28 @@ def broken_links(name, text):
             yield f"{name}: {link}: the file has no such heading"
 
 
+def glossary():
+    """Of each row its words, and where the code defines them."""
+    lines = (ROOT / "doc/glossary.md").read_text().splitlines()
+    cells = [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines if line.startswith("| ")]
+    return [(words, where) for words, _, where in cells if words not in ("word", "---")]
+
+
+def misnamed(words, where):
+    """A name is in the file that follows it, or in some header."""
+    headers = None
+    for names, path in re.findall(r"((?:`[\w:]+`[^`/]*?)+)(?:(?<=, )([\w/]+\.h)|$|;)", where):
+        for name in re.findall(r"`([\w:]+)`", names):
+            if path:
+                texts = [(ROOT / path).read_text()]
+            else:
+                headers = headers or [text for file, text in files() if file.endswith(".h")]
+                texts = headers
+            word = re.compile(r"\b" + name.split("::")[-1] + r"\b")
+            if not any(word.search(text) for text in texts):
+                yield f"{words}: there is no {name} in {path or 'any header'}"
+
+
 class Documents(unittest.TestCase):
     def test_every_path_in_a_comment_or_document_exists(self):
         found = [problem for name, text in files() for problem in missing_paths(name, text)]
@@ -66,6 +88,15 @@ class Documents(unittest.TestCase):
         found = [problem for name, text in documents for problem in broken_links(name, text)]
         self.assertEqual(found, [], "\n" + "\n".join(found))
         self.assertGreater(len(documents), 20)
+
+
+    def test_the_glossary_has_one_meaning_of_each_word_and_names_what_is_in_the_code(self):
+        rows = glossary()
+        words = [word.strip() for words, _ in rows for word in words.split(",")]
+        self.assertEqual([word for word in set(words) if words.count(word) > 1], [])
+        self.assertGreater(len(words), 60)
+        found = [problem for words, where in rows for problem in misnamed(words, where)]
+        self.assertEqual(found, [], "\n" + "\n".join(found))
 
 
 class Rules(unittest.TestCase):
@@ -80,6 +111,11 @@ class Rules(unittest.TestCase):
         self.assertEqual(len(list(broken_links("doc/a.md", "[a](no_such.md) [b](report.md#no-such-heading)"))), 2)
         links = "[a](report.md) [b](https://example.org/no) [c](../README.md#python)"
         self.assertEqual(list(broken_links("doc/a.md", links)), [])
+
+    def test_notice_a_name_of_the_glossary_that_is_not_there(self):
+        self.assertEqual(list(misnamed("panel", "`Panel`, certify/newton.h")), ["panel: there is no Panel in certify/newton.h"])
+        self.assertEqual(len(list(misnamed("x", "`Sheet::no_such`; `NoSuch`"))), 2)
+        self.assertEqual(list(misnamed("x", "`Sheet::region`, `Cover::regions`")), [])
 
 
 if __name__ == "__main__":

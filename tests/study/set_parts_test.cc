@@ -374,7 +374,7 @@ TEST(AngleTies, HoldWhatTheyStandFor) {
       const auto x = rods.length("x", -5, 5);
       rods.constrain(x == 2 * cos(a) + sin(b + a) + cos(2 * b));
       symbolic::TrigonometricSystem tied = symbolic::plain_system(rods);
-      tied.tie = symbolic::AngleTie{"b", "a", sign, quarters};
+      tied.dependent_angle = symbolic::DependentAngle{"b", "a", sign, quarters};
       const System system = symbolic::algebrize(tied);
       EXPECT_EQ(system.size() - static_cast<int>(system.equations.size()), 1);
       for (int trial = 0; trial < 20; ++trial) {
@@ -382,7 +382,8 @@ TEST(AngleTies, HoldWhatTheyStandFor) {
         VectorXd v(5);
         v << std::cos(alpha), std::sin(alpha), std::cos(beta), std::sin(beta),
             2 * std::cos(alpha) + std::sin(beta + alpha) + std::cos(2 * beta);
-        for (const Polynomial& f : system.equations) EXPECT_NEAR(value_of(f, v), 0, 1e-12) << tied.tie->text() << f.source;
+        for (const Polynomial& f : system.equations)
+          EXPECT_NEAR(value_of(f, v), 0, 1e-12) << tied.dependent_angle->text() << f.source;
         v[2] = -v[2];
         v[3] = -v[3];
         EXPECT_TRUE(std::any_of(system.equations.begin(), system.equations.end(),

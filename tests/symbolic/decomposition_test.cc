@@ -30,8 +30,8 @@ long double determinant_at(const MatrixOfExpressions& m, const Values& at) {
 
 // 0 where the part holds; it changes its sign there but at zeros of even order.
 long double value_of(const Component& part, const Values& at) {
-  if (part.tie) {
-    const AngleTie& t = *part.tie;
+  if (part.dependent_angle) {
+    const DependentAngle& t = *part.dependent_angle;
     return std::sin((at.at(t.angle) - t.sign * at.at(t.other) - t.quarters * pi_v<long double> / 2) / 2);
   }
   return part.condition ? evaluate(*part.condition, at) : determinant_at(part.block->rows, at);
@@ -190,7 +190,7 @@ TEST(Decomposition, LosesNoPlantedFactorAndNoPartIsFalse) {
     if (parts.empty()) continue;
     ++in_parts;
     for (const Component& part : parts) {
-      ties += part.tie.has_value();
+      ties += part.dependent_angle.has_value();
       for (int trial = 0; trial < 10; ++trial)
         if (const auto at = planted.zero([&](const Values& x) { return value_of(part, x); })) {
           ++on_parts;

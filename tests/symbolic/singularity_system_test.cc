@@ -52,7 +52,7 @@ Mechanism model(const std::string& vars, const std::string& equations, const std
 }
 
 ExpressionMatrix without(const Derivation& d, auto... roles) { return d.velocity.without(std::array{roles...}); }
-std::vector<std::size_t> ties(const Derivation& d, Role role) { return d.velocity.ties(std::array{role}); }
+std::vector<std::size_t> dependencies(const Derivation& d, Role role) { return d.velocity.dependencies(std::array{role}); }
 
 TEST(Derivation, GivesDextarsJacobianAndItsBlocks) {
   const Derivation d = derive(reference("dextar"));
@@ -310,7 +310,7 @@ TEST(Ties, ThatDoNotMatchTheMobilityAreCounted) {
                         "they are not independent; expected 2 outputs, or 1 more equation in outputs only that ties them"));
   const Mechanism bound = model("x : [-1, 1]\ny : [-1, 1]", "x^2 = 1;", "[INPUTS] x\n[OUTPUTS] y");
   std::tie(line, message) = error_of([&] { singularity_system(bound, SingularitySet::forward); });
-  EXPECT_THAT(message, HasSubstr("1 input tied by 1 equation, so 0 free; expected 2 inputs with these ties"));
+  EXPECT_THAT(message, HasSubstr("1 input tied by 1 equation, so 0 free; expected 2 inputs with these dependencies"));
 }
 
 TEST(Ties, ThatNeedPassiveCoordinatesAreAskedFor) {

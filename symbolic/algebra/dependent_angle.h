@@ -8,7 +8,7 @@
 namespace corank::symbolic {
 
 /// a = sign·b + quarters·π/2 (mod 2π), between angles a and b of which a stands behind b.
-struct AngleTie {
+struct DependentAngle {
   std::string angle, other;
   int sign = 1, quarters = 0;
 

@@ -1,5 +1,5 @@
 // Products of a real matrix with interval matrices and vectors: exact on integers, outward on all other numbers.
-#include "corank/certify/panel.h"
+#include "corank/certify/slope_matrix.h"
 
 #include <gtest/gtest.h>
 
@@ -63,25 +63,25 @@ TEST_F(PanelTest, IsExactOnIntegers) {
   for (int trial = 0; trial < 300; ++trial) {
     const Case c = random_case(random_, [&] { return static_cast<double>(digit(random_)); });
     const CompiledSystem system = full_system(c.r, c.n);
-    Panel panel;
-    panel.set_matrix(c.y, c.r);
-    ASSERT_TRUE(panel.assign_product(system, c.equations, c.sparse));
+    SlopeMatrix matrix;
+    matrix.set_matrix(c.y, c.r);
+    ASSERT_TRUE(matrix.assign_product(system, c.equations, c.sparse));
     for (int a = 0; a < c.r; ++a)
       for (int j = 0; j < c.n; ++j) {
         Interval expected;
         for (int b = 0; b < c.r; ++b) expected += scale(c.y[a * c.r + b], c.sparse[b * c.n + j]);
-        ASSERT_EQ(panel.at(a, j), expected) << trial;
+        ASSERT_EQ(matrix.at(a, j), expected) << trial;
       }
-    for (auto diagonal : {Panel::Diagonal::zero, Panel::Diagonal::minus_one}) {
+    for (auto diagonal : {SlopeMatrix::Diagonal::zero, SlopeMatrix::Diagonal::minus_one}) {
       std::vector<Interval> sums = c.sums;
-      panel.accumulate(c.offset.data(), c.dependent, diagonal, sums);
+      matrix.accumulate(c.offset.data(), c.dependent, diagonal, sums);
       for (int a = 0; a < c.r; ++a) {
         Interval expected = c.sums[a];
         for (int j = 0; j < c.n; ++j) {
           if (j != c.dependent[a])
-            expected += panel.at(a, j) * c.offset[j];
-          else if (diagonal == Panel::Diagonal::minus_one)
-            expected += (panel.at(a, j) - Interval(1.0)) * c.offset[j];
+            expected += matrix.at(a, j) * c.offset[j];
+          else if (diagonal == SlopeMatrix::Diagonal::minus_one)
+            expected += (matrix.at(a, j) - Interval(1.0)) * c.offset[j];
         }
         ASSERT_EQ(sums[a], expected) << trial << ": the diagonal is back, too";
       }
@@ -94,21 +94,21 @@ TEST_F(PanelTest, RoundsOutward) {
   for (int trial = 0; trial < 300; ++trial) {
     const Case c = random_case(random_, [&] { return std::ldexp(real(random_), static_cast<int>(random_() % 20)); });
     const CompiledSystem system = full_system(c.r, c.n);
-    Panel panel;
-    panel.set_matrix(c.y, c.r);
-    ASSERT_TRUE(panel.assign_product(system, c.equations, c.sparse));
-    // Products of doubles by interval operations that are tested against MPFR: the panel may be no narrower than what one
+    SlopeMatrix matrix;
+    matrix.set_matrix(c.y, c.r);
+    ASSERT_TRUE(matrix.assign_product(system, c.equations, c.sparse));
+    // Products of doubles by interval operations that are tested against MPFR: the matrix may be no narrower than what one
     // corner needs.
     for (int a = 0; a < c.r; ++a)
       for (int j = 0; j < c.n; ++j) {
         Interval corner;
         for (int b = 0; b < c.r; ++b) corner += scale(c.y[a * c.r + b], Interval(c.sparse[b * c.n + j].hi()));
-        ASSERT_TRUE(panel.at(a, j).overlaps(corner));
-        ASSERT_LE(panel.at(a, j).lo(), corner.hi());
-        ASSERT_GE(panel.at(a, j).hi(), corner.lo());
+        ASSERT_TRUE(matrix.at(a, j).overlaps(corner));
+        ASSERT_LE(matrix.at(a, j).lo(), corner.hi());
+        ASSERT_GE(matrix.at(a, j).hi(), corner.lo());
       }
     std::vector<Interval> product;
-    panel.multiply(c.sums, product);
+    matrix.multiply(c.sums, product);
     for (int a = 0; a < c.r; ++a) {
       Interval expected;
       for (int b = 0; b < c.r; ++b) expected += scale(c.y[a * c.r + b], c.sums[b]);
@@ -120,66 +120,66 @@ TEST_F(PanelTest, RoundsOutward) {
 // Against interval operations, which are tested against MPFR: the same roundings in the same order.
 TEST_F(PanelTest, SubtractsItsRowsAndMeasuresItsDistanceFromTheIdentity) {
   std::uniform_real_distribution<double> real(-1, 1);
-  Panel panel;
+  SlopeMatrix matrix;
   for (int trial = 0; trial < 300; ++trial) {
     const Case c = random_case(random_, [&] { return std::ldexp(real(random_), static_cast<int>(random_() % 20)); });
-    panel.set_matrix(c.y, c.r);
-    ASSERT_TRUE(panel.assign_product(full_system(c.r, c.n), c.equations, c.sparse));
+    matrix.set_matrix(c.y, c.r);
+    ASSERT_TRUE(matrix.assign_product(full_system(c.r, c.n), c.equations, c.sparse));
     std::vector<double> weights;
     for (int j = 0; j < c.n; ++j) weights.push_back(std::ldexp(1.0 + std::fabs(real(random_)), j % 7 - 3));
     double largest = 0;
     for (int a = 0; a < c.r; ++a) {
       double sum = 0;
       for (int b = 0; b < c.r; ++b)
-        sum += weights[c.dependent[b]] * (Interval(a == b ? 1.0 : 0.0) - panel.at(a, c.dependent[b])).mag();
+        sum += weights[c.dependent[b]] * (Interval(a == b ? 1.0 : 0.0) - matrix.at(a, c.dependent[b])).mag();
       largest = std::max(largest, sum / weights[c.dependent[a]]);
       for (const double factor : {real(random_), -0.75, 0.75}) {
         std::vector<Interval> row = c.offset;
-        panel.subtract_row(factor, a, row.data());
-        for (int j = 0; j < c.n; ++j) ASSERT_EQ(row[j], c.offset[j] - scale(factor, panel.at(a, j))) << trial;
+        matrix.subtract_row(factor, a, row.data());
+        for (int j = 0; j < c.n; ++j) ASSERT_EQ(row[j], c.offset[j] - scale(factor, matrix.at(a, j))) << trial;
       }
     }
-    ASSERT_EQ(panel.distance_from_identity(c.dependent, weights), largest) << trial;
+    ASSERT_EQ(matrix.distance_from_identity(c.dependent, weights), largest) << trial;
   }
 }
 
 TEST_F(PanelTest, TakesEachMatrixThatDiffersFromTheLast) {
-  Panel panel;
+  SlopeMatrix matrix;
   std::vector<Interval> product;
   const std::vector<Interval> values = {1.0, 10.0};
-  EXPECT_TRUE(panel.set_matrix({1, 2, 3, 4}, 2));
-  EXPECT_TRUE(panel.set_matrix({1, 2, 3, 4}, 2));
-  panel.multiply(values, product);
+  EXPECT_TRUE(matrix.set_matrix({1, 2, 3, 4}, 2));
+  EXPECT_TRUE(matrix.set_matrix({1, 2, 3, 4}, 2));
+  matrix.multiply(values, product);
   EXPECT_EQ(product, (std::vector<Interval>{21.0, 43.0}));
-  EXPECT_TRUE(panel.set_matrix({1, 2, 3, 5}, 2));
-  panel.multiply(values, product);
+  EXPECT_TRUE(matrix.set_matrix({1, 2, 3, 5}, 2));
+  matrix.multiply(values, product);
   EXPECT_EQ(product, (std::vector<Interval>{21.0, 53.0}));
-  EXPECT_TRUE(panel.set_matrix({1}, 1));
-  panel.multiply(values, product);
+  EXPECT_TRUE(matrix.set_matrix({1}, 1));
+  matrix.multiply(values, product);
   EXPECT_EQ(product, (std::vector<Interval>{1.0}));
 }
 
 TEST_F(PanelTest, RefusesWhatIsNotFinite) {
   const CompiledSystem system = full_system(1, 1);
-  Panel panel;
-  panel.set_matrix({0.0}, 1);
-  EXPECT_TRUE(panel.assign_product(system, {0}, {Interval(1, 2)}));
-  EXPECT_FALSE(panel.assign_product(system, {0}, {Interval::whole()}));
-  panel.set_matrix({1e300}, 1);
-  EXPECT_FALSE(panel.assign_product(system, {0}, {Interval(-1, 1e300)}));
+  SlopeMatrix matrix;
+  matrix.set_matrix({0.0}, 1);
+  EXPECT_TRUE(matrix.assign_product(system, {0}, {Interval(1, 2)}));
+  EXPECT_FALSE(matrix.assign_product(system, {0}, {Interval::whole()}));
+  matrix.set_matrix({1e300}, 1);
+  EXPECT_FALSE(matrix.assign_product(system, {0}, {Interval(-1, 1e300)}));
   for (const double y : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-    for (int again = 0; again < 2; ++again) EXPECT_FALSE(panel.set_matrix({y}, 1));
+    for (int again = 0; again < 2; ++again) EXPECT_FALSE(matrix.set_matrix({y}, 1));
 }
 
 TEST_F(PanelTest, AnEntryThatLeavesTheRangeOfDoublesIsWithoutBounds) {
   constexpr double kLargest = std::numeric_limits<double>::max();
-  Panel panel;
-  panel.set_matrix({1.0}, 1);
+  SlopeMatrix matrix;
+  matrix.set_matrix({1.0}, 1);
   for (const Interval& entry : {Interval(-kLargest, 1), Interval(-kLargest, kLargest)}) {
-    ASSERT_TRUE(panel.assign_product(full_system(1, 1), {0}, {entry}));
+    ASSERT_TRUE(matrix.assign_product(full_system(1, 1), {0}, {entry}));
     for (const Interval& offset : {Interval(0, 1), Interval(-1, 0), Interval(0.0), Interval(-1, 1)}) {
       std::vector<Interval> sums{Interval(0.0)};
-      panel.accumulate(&offset, {0}, Panel::Diagonal::minus_one, sums);
+      matrix.accumulate(&offset, {0}, SlopeMatrix::Diagonal::minus_one, sums);
       EXPECT_FALSE(std::isnan(sums[0].lo()) || std::isnan(sums[0].hi())) << offset;
       for (const double x : {offset.lo(), offset.hi()}) {
         EXPECT_TRUE(x == 0 || sums[0].contains((entry.lo() - 1) * x)) << offset;

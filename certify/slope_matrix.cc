@@ -1,4 +1,4 @@
-#include "corank/certify/panel.h"
+#include "corank/certify/slope_matrix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ struct SplitMatrix {
   std::size_t rows;
 };
 
-// (−lo, hi) of the panel's columns += Y·S by rows, S's rows `equations` sparse: y⁺ takes the ends of an entry as they are,
+// (−lo, hi) of the matrix's columns += Y·S by rows, S's rows `equations` sparse: y⁺ takes the ends of an entry as they are,
 // y⁻ exchanges them.
 CORANK_WIDE void add_sparse_product(const SplitMatrix& y, const CompiledSystem& system, const std::vector<int>& equations,
                                     const Interval* sparse, double* negated_lower, double* upper) {
@@ -56,9 +56,9 @@ CORANK_WIDE void multiply_vector(const SplitMatrix& y, const Interval* x, int co
 // sums := P·o for finite offsets o = [−o1, o2], P = [−l, h]. −lo and hi of an entry's product are the larger of two
 // products, chosen by the signs of o1, o2. In row diagonal[j] of column j (−1: none) stands the entry less 1 if
 // minus_one, else 0: exchanged in registers, since a store would delay the loads after it.
-CORANK_WIDE void multiply_panel(const double* negated_lower, const double* upper, std::size_t rows, const Interval* offset,
-                                int columns, const double* diagonal, bool minus_one, double* sum_negated_lower,
-                                double* sum_upper) {
+CORANK_WIDE void multiply_matrix(const double* negated_lower, const double* upper, std::size_t rows, const Interval* offset,
+                                 int columns, const double* diagonal, bool minus_one, double* sum_negated_lower,
+                                 double* sum_upper) {
   for (std::size_t a = 0; a < rows; a += kLanes) {
     const double first = static_cast<double>(a);
     const Lanes row = {first, first + 1, first + 2, first + 3};
@@ -107,7 +107,7 @@ CORANK_WIDE bool all_finite(const double* __restrict a, const double* __restrict
 
 }  // namespace
 
-bool Panel::set_matrix(const std::vector<double>& y, int r) {
+bool SlopeMatrix::set_matrix(const std::vector<double>& y, int r) {
   if (r > 0 && r == r_ && y.size() == y_.size() && std::memcmp(y.data(), y_.data(), y.size() * sizeof(double)) == 0)
     return finite_;
   y_ = y;
@@ -127,8 +127,8 @@ bool Panel::set_matrix(const std::vector<double>& y, int r) {
   return finite_;
 }
 
-bool Panel::assign_product(const CompiledSystem& system, const std::vector<int>& equations,
-                           const std::vector<Interval>& sparse) {
+bool SlopeMatrix::assign_product(const CompiledSystem& system, const std::vector<int>& equations,
+                                 const std::vector<Interval>& sparse) {
   n_ = system.variables();
   negated_lower_.assign(n_ * stride_, 0.0);
   upper_.assign(n_ * stride_, 0.0);
@@ -137,7 +137,7 @@ bool Panel::assign_product(const CompiledSystem& system, const std::vector<int>&
   return all_finite(negated_lower_.data(), upper_.data(), upper_.size());
 }
 
-void Panel::multiply(const std::vector<Interval>& values, std::vector<Interval>& result) {
+void SlopeMatrix::multiply(const std::vector<Interval>& values, std::vector<Interval>& result) {
   sum_negated_lower_.resize(stride_);
   sum_upper_.resize(stride_);
   multiply_vector({positive_.data(), negative_.data(), stride_}, values.data(), r_, sum_negated_lower_.data(),
@@ -146,8 +146,8 @@ void Panel::multiply(const std::vector<Interval>& values, std::vector<Interval>&
   for (std::size_t a = 0; a < result.size(); ++a) result[a] = Interval(-sum_negated_lower_[a], sum_upper_[a]);
 }
 
-void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal,
-                       std::vector<Interval>& sums) {
+void SlopeMatrix::accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal,
+                             std::vector<Interval>& sums) {
   const bool minus_one = diagonal == Diagonal::minus_one;
   bool plain = true;  // no 0·∞
   for (int j = 0; j < n_; ++j) plain = plain && offset[j].is_bounded();
@@ -159,8 +159,8 @@ void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent
     for (int a = 0; a < r_; ++a) diagonal_[dependent[a]] = a;
     sum_negated_lower_.resize(stride_);
     sum_upper_.resize(stride_);
-    multiply_panel(negated_lower_.data(), upper_.data(), stride_, offset, n_, diagonal_.data(), minus_one,
-                   sum_negated_lower_.data(), sum_upper_.data());
+    multiply_matrix(negated_lower_.data(), upper_.data(), stride_, offset, n_, diagonal_.data(), minus_one,
+                    sum_negated_lower_.data(), sum_upper_.data());
     for (int a = 0; a < r_; ++a) sums[a] += Interval(-sum_negated_lower_[a], sum_upper_[a]);
     return;
   }
@@ -170,7 +170,7 @@ void Panel::accumulate(const Interval* offset, const std::vector<int>& dependent
   }
 }
 
-double Panel::distance_from_identity(const std::vector<int>& dependent, const std::vector<double>& weights) {
+double SlopeMatrix::distance_from_identity(const std::vector<int>& dependent, const std::vector<double>& weights) {
   sum_upper_.assign(stride_, 0.0);
   for (std::size_t a = 0; a < dependent.size(); ++a) {
     const std::size_t column = index(0, dependent[a]);

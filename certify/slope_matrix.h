@@ -13,20 +13,20 @@
 
 namespace corank::certify {
 
-class Panel {
+class SlopeMatrix {
  public:
   /// Y, r×r row-major. False where an entry is not finite: then nothing else may be called. A matrix that is set already
   /// stays as it is.
   bool set_matrix(const std::vector<double>& y, int r);
 
-  /// The panel becomes Y·S, r×n, S the rows `equations` of a matrix in the system's sparsity pattern. False where an entry
+  /// The matrix becomes Y·S, r×n, S the rows `equations` of a matrix in the system's sparsity pattern. False where an entry
   /// is not finite: then it may not be used.
   bool assign_product(const CompiledSystem& system, const std::vector<int>& equations, const std::vector<Interval>& sparse);
 
   /// result[a] := Σ_b Y_ab values[b], for finite values.
   void multiply(const std::vector<Interval>& values, std::vector<Interval>& result);
 
-  /// sums[a] += Σ_j P_aj offset[j], P the panel with `diagonal` in place of the entries (a, dependent[a]).
+  /// sums[a] += Σ_j P_aj offset[j], P the matrix with `diagonal` in place of the entries (a, dependent[a]).
   enum class Diagonal { zero, minus_one };  ///< 0; the entry − 1
   void accumulate(const Interval* offset, const std::vector<int>& dependent, Diagonal diagonal, std::vector<Interval>& sums);
 
@@ -56,7 +56,7 @@ class Panel {
   std::vector<double> y_;                      // as it was set
   bool finite_ = false;                        // all of y_
   std::vector<double> positive_, negative_;    // column b: max(Y_ab, 0), max(−Y_ab, 0)
-  std::vector<double> negated_lower_, upper_;  // column j of the panel
+  std::vector<double> negated_lower_, upper_;  // column j of the matrix
   std::vector<double> sum_negated_lower_, sum_upper_;
   std::vector<double> diagonal_;  // of each column the row whose dependent it is, −1: none; doubles, to be compared in lanes
 };
