@@ -120,7 +120,7 @@ class EdgePieces {
     if (!cells_) return std::nullopt;
     const UpwardRounding rounding;
     const auto place = std::ranges::find(others_, other) - others_.begin();
-    for (const Pieces::Part& part : pieces_.parts) {
+    for (const Pieces::CellPart& part : pieces_.parts) {
       const SignCell& cell = cells_->cells()[part.cell];
       if (cell.mixed != std::vector<int>{static_cast<int>(place)}) continue;
       const bool inside = contains(cells_->region(cell), corner) && contains_over(cell.free, cell.sides, corner);

@@ -89,7 +89,6 @@ class Documents(unittest.TestCase):
         self.assertEqual(found, [], "\n" + "\n".join(found))
         self.assertGreater(len(documents), 20)
 
-
     def test_the_glossary_has_one_meaning_of_each_word_and_names_what_is_in_the_code(self):
         rows = glossary()
         words = [word.strip() for words, _ in rows for word in words.split(",")]
@@ -113,7 +112,9 @@ class Rules(unittest.TestCase):
         self.assertEqual(list(broken_links("doc/a.md", links)), [])
 
     def test_notice_a_name_of_the_glossary_that_is_not_there(self):
-        self.assertEqual(list(misnamed("panel", "`Panel`, certify/newton.h")), ["panel: there is no Panel in certify/newton.h"])
+        self.assertEqual(
+            list(misnamed("panel", "`Panel`, certify/newton.h")), ["panel: there is no Panel in certify/newton.h"]
+        )
         self.assertEqual(len(list(misnamed("x", "`Sheet::no_such`; `NoSuch`"))), 2)
         self.assertEqual(list(misnamed("x", "`Sheet::region`, `Cover::regions`")), [])
 

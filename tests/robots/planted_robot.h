@@ -144,12 +144,12 @@ class Planted {
       const JointKind kind = planted.any_kind(flat);
       planted.add_link(flat ? upright(planted.number(-4, 4)) : planted.rotation(), flat);
       if (kinematics::keeps_orientation(kind)) planted.rotations.back() = planted.rotations[on];
-      planted.dependent_angle(kind, on, static_cast<std::size_t>(i), flat);
+      planted.tie(kind, on, static_cast<std::size_t>(i), flat);
     }
     for (int k = 0; k < loops; ++k) {
       const auto a = static_cast<std::size_t>(planted.number(0, links - 1)),
                  b = (a + static_cast<std::size_t>(planted.number(1, links - 1))) % static_cast<std::size_t>(links);
-      planted.dependent_angle(planted.any_kind(flat), a, b, flat);
+      planted.tie(planted.any_kind(flat), a, b, flat);
     }
     planted.ask();
     return planted;
@@ -165,9 +165,9 @@ class Planted {
     }
     planted.add_link(planted.rotation(), false);
     for (const std::size_t carrier : {0, 0, 1, 1, 2, 2})  // some from the platform
-      planted.number(0, 2) > 0 ? planted.dependent_angle(JointKind::distance, carrier, 3, false)
-                               : planted.dependent_angle(JointKind::distance, 3, carrier, false);
-    for (const std::size_t crank : {1, 2}) planted.dependent_angle(JointKind::distance, 0, crank, false);
+      planted.number(0, 2) > 0 ? planted.tie(JointKind::distance, carrier, 3, false)
+                               : planted.tie(JointKind::distance, 3, carrier, false);
+    for (const std::size_t crank : {1, 2}) planted.tie(JointKind::distance, 0, crank, false);
     return planted;
   }
 

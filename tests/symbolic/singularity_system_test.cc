@@ -263,12 +263,12 @@ constexpr const char* kSphereChosen = "[INPUTS] t, p\n[OUTPUTS] w";
 
 TEST(Ties, AreEquationsInOutputsOrInputsAlone) {
   const Derivation d = derive(model(kSphere, kLegs, kSphereChosen));
-  EXPECT_TRUE(ties(d, Role::input).empty());
-  EXPECT_THAT(ties(d, Role::output), ElementsAre(0u));
+  EXPECT_TRUE(dependencies(d, Role::input).empty());
+  EXPECT_THAT(dependencies(d, Role::output), ElementsAre(0u));
   EXPECT_THAT(without(d, Role::output).rows[0][0].text(), "0");
   const Derivation turned = derive(model(kSphere, kLegs, "[INPUTS] w\n[OUTPUTS] t, p"));
-  EXPECT_THAT(ties(turned, Role::input), ElementsAre(0u));
-  EXPECT_TRUE(ties(turned, Role::output).empty());
+  EXPECT_THAT(dependencies(turned, Role::input), ElementsAre(0u));
+  EXPECT_TRUE(dependencies(turned, Role::output).empty());
 }
 
 TEST(Ties, LetAsManyMoreOutputsOrInputsBeNamed) {
