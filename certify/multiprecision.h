@@ -1,11 +1,10 @@
-// Real numbers and intervals of any precision: MPFR's and MPFI's as values, with what Eigen needs of a scalar. A new number
-// has as many bits as the thread that makes it is to compute with: no thread changes another's. Inside certify/ only.
+// Real numbers and intervals of any precision: MPFR's and MPFI's as values. A new number
+// has as many bits as the thread that makes it is to compute with: no thread changes another's. Inside certify/, and where solve/ looks for
+// zeros in many digits.
 #pragma once
 
 #include <concepts>
 #include <utility>
-
-#include <Eigen/Core>
 
 #include "corank/core/mpfi.h"
 #include "corank/core/nearest_rounding.h"
@@ -46,6 +45,7 @@ class Real {
   Real& operator=(const Real& o) { return mpfr_set(x_, o.x_, MPFR_RNDN), *this; }
   Real& operator=(Real&& o) noexcept { return mpfr_swap(x_, o.x_), *this; }
 
+  double to_double() const { return mpfr_get_d(x_, MPFR_RNDN); }
   mpfr_ptr data() { return x_; }
   mpfr_srcptr data() const { return x_; }
 
@@ -111,13 +111,3 @@ class Range : public Mpfi {
 };
 
 }  // namespace corank::certify
-
-template <>
-struct Eigen::NumTraits<corank::certify::Real> : Eigen::GenericNumTraits<corank::certify::Real> {
-  using Real = corank::certify::Real;
-  using NonInteger = Real;
-  using Nested = Real;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 10, AddCost = 20, MulCost = 40 };
-  static Real epsilon() { return ldexp(Real(1), 1 - corank::certify::Precision::bits()); }
-  static Real dummy_precision() { return 1000 * epsilon(); }
-};

@@ -1,5 +1,4 @@
-// Many digits of a solution: Newton's method in multiprecision arithmetic finds them, Krawczyk's test with as many bits as
-// it takes proves them.
+// Many digits of a solution, proven by Krawczyk's test with as many bits as it takes.
 #pragma once
 
 #include <optional>
@@ -10,12 +9,6 @@
 #include "corank/core/system.h"
 
 namespace corank::certify {
-
-/// Heuristic: a point near `start` where the equations vanish to about bits/2 bits, found by Gauss–Newton steps (least
-/// squares, least norm) in MPFR arithmetic; also at a multiple solution, where each step gains a bit only. Coordinates are
-/// dyadic rationals. Nothing where the steps do not end there, or `ended` is true before.
-std::optional<std::vector<ExactNumber>> approximate_zero(const System& system, const std::vector<ExactNumber>& start,
-                                                         int bits, const Ended& ended = {});
 
 struct ProvenZero {
   std::vector<std::pair<ExactNumber, ExactNumber>> sides;  ///< rational bounds of each variable

@@ -5,10 +5,10 @@
 
 #include "corank/certify/blow_up.h"
 #include "corank/certify/exact_verification.h"
-#include "corank/certify/refinement.h"
 #include "corank/core/box.h"
 #include "corank/solve/exactness/corank_system.h"
 #include "corank/solve/exactness/ipopt.h"
+#include "corank/solve/step/approximate_zero.h"
 
 namespace corank::solve {
 namespace {
@@ -48,7 +48,7 @@ int ExactPoints::add(ExactPoint point) {
 
 std::optional<int> ExactPoints::solution_in(const Box& box) {
   const std::vector<double> start = polish(system_, box, ended_).value_or(midpoint(box));
-  const auto zero = certify::approximate_zero(system_, dyadic(start), kBits, ended_);
+  const auto zero = approximate_zero(system_, dyadic(start), kBits, ended_);
   if (!zero) return std::nullopt;
   auto point = guess_exactly({zero->begin(), zero->end()}, kGuessBits, kDegree, ended_);
   if (!point) return std::nullopt;
@@ -64,7 +64,7 @@ std::optional<int> ExactPoints::with_kernel(const PolynomialMatrix& matrix, cons
   const int k = static_cast<int>(s.size());
   for (int c = least; c <= k && s[k - c] < kSmallSingularValue * s[0]; ++c) {
     const CorankSystem extended = corank_system(system_, matrix, x, c);
-    const auto zero = certify::approximate_zero(extended.system, dyadic(extended.start), kBits, ended_);
+    const auto zero = approximate_zero(extended.system, dyadic(extended.start), kBits, ended_);
     if (!zero) continue;
     std::vector<std::optional<ExactNumber>> coordinates(x.size());
     for (std::size_t j = 0; j < extended.configuration.size(); ++j) coordinates[extended.configuration[j]] = (*zero)[j];

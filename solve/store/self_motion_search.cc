@@ -5,9 +5,9 @@
 #include <cmath>
 #include <random>
 
-#include "corank/certify/refinement.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/step/approximate_zero.h"
 #include "corank/solve/step/heuristics.h"
 
 namespace corank::solve {
@@ -135,7 +135,7 @@ std::vector<LocalSolution> precise(const System& system, const std::vector<Local
     const LocalSolution& sample = samples[k * samples.size() / wanted];
     std::vector<ExactNumber> start;
     for (const double c : sample.x) start.push_back(ExactNumber::dyadic(c));
-    const auto zero = certify::approximate_zero(system, start, kSampleBits);
+    const auto zero = approximate_zero(system, start, kSampleBits);
     if (!zero) continue;
     result.push_back({{}, sample.rank});
     for (const ExactNumber& c : *zero) result.back().x.push_back(c.enclose().mid());
