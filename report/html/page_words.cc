@@ -254,7 +254,7 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
   const int corank = result.options.corank;
   words.title = called.title + (corank == 1 ? "" : fmt::format(" of corank {}", corank));
   words.meaning = meaning(called, corank, given_velocity_equation);
-  if (const std::size_t in_one = boxes_in_one(result); in_one > 1)
+  if (const std::size_t in_one = boxes_in_one(result, found); in_one > 1)
     words.meaning += fmt::format("; drawn here: hulls of up to {} neighbouring boxes with the same verdict", in_one);
   if (cover.boxes.empty()) {
     say_none(result, given_velocity_equation && called.given_none ? called.given_none : called.none, words);

@@ -43,7 +43,7 @@ SetView set_view(result::Result result, System system, bool given_velocity_equat
   const symbolic::SetDefinition& set = symbolic::definition(result.set);
   SetWords words = set_words(result, found, given_velocity_equation);
   std::vector<CoverBox> hulls;
-  if (const std::size_t in_one = boxes_in_one(result); in_one > 1) hulls = hulls_of(result, in_one);
+  if (const std::size_t in_one = boxes_in_one(result, found); in_one > 1) hulls = hulls_of(result, in_one);
   return {std::move(result), &set, std::move(system), std::move(found), std::move(words), std::move(hulls)};
 }
 

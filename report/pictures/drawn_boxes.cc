@@ -66,9 +66,9 @@ class Hulls {
 
 }  // namespace
 
-std::size_t boxes_in_one(const result::Result& result) {
-  const std::size_t n = result.cover.boxes.size();
-  return result.outputs.empty() && n > kMostDrawn ? 4 * ((n + kMostDrawn - 1) / kMostDrawn) : 1;
+std::size_t boxes_in_one(const result::Result& result, const Components& found) {
+  const std::size_t n = result.cover.boxes.size(), most = found.counted ? kMostDrawn : kMostDrawnAtTheEnd;
+  return result.outputs.empty() && n > most ? 4 * ((n + most - 1) / most) : 1;
 }
 
 std::vector<CoverBox> hulls_of(const result::Result& result, std::size_t in_one) {

@@ -50,12 +50,18 @@ TEST(DrawnBoxes, HullsAreOfNeighbours) {
 }
 
 TEST(DrawnBoxes, FewBoxesAreDrawnOneByOne) {
-  EXPECT_EQ(boxes_in_one(many_boxes(1000)), 1u);
+  EXPECT_EQ(boxes_in_one(many_boxes(1000), {}), 1u);
   result::Result many;
   many.cover.boxes.resize(kMostDrawn + 1);
-  EXPECT_EQ(boxes_in_one(many), 8u);
+  EXPECT_EQ(boxes_in_one(many, {}), 8u);
   many.outputs = {"x", "y"};
-  EXPECT_EQ(boxes_in_one(many), 1u);
+  EXPECT_EQ(boxes_in_one(many, {}), 1u);
+}
+
+TEST(DrawnBoxes, AreFewOnAPageThatIsWrittenAfterItsRunWasEnded) {
+  const Components ended{.counted = false};
+  EXPECT_EQ(boxes_in_one(many_boxes(1000), ended), 1u);
+  EXPECT_EQ(boxes_in_one(many_boxes(60'000), ended), 8u);
 }
 
 }  // namespace
