@@ -31,6 +31,7 @@ class PieceCounter {
       return result;
     }
     proven_ = boost::disjoint_sets_with_storage<>(parts_.size());
+    for_each_pair_of_one_sheet([&](std::size_t p, std::size_t q) { proven_.union_set(p, q); });
     for (std::size_t c = 0; c < cells_.cells().size() && !control_.ended(); ++c) {
       join_over_border(c);
       control_.report(c, cells_.cells().size());
@@ -83,18 +84,22 @@ class PieceCounter {
     return contains(cells_.region(cell), point) && contains_over(cell.free, cell.sides, point);
   }
 
+  // By roundings.
+  Box widened(Box box) const {
+    constexpr double kRounding = 1e-9;
+    for (std::size_t j = 0; j < box.size(); ++j)
+      box[j] += Interval(-kRounding, kRounding) * Interval(cells_.system().variables[j].size);
+    return box;
+  }
+
   // All parts that hold the point, a solution over values of the variables `held`, are of one piece. Those of cells that end
   // there, but for rounding, may be.
   void join_at(const Box& point, const std::vector<int>& held) {
-    constexpr double kRounding = 1e-9;
     const Signs signs = cells_.signs(point);
     if (std::ranges::find(signs, 0) != signs.end()) return;
     std::optional<std::size_t> first;
     std::vector<std::size_t> near;
-    Box around = point;
-    for (std::size_t j = 0; j < around.size(); ++j)
-      around[j] += Interval(-kRounding, kRounding) * Interval(cells_.system().variables[j].size);
-    tree_.for_each_overlapping(around, 0, [&](std::size_t c) {
+    tree_.for_each_overlapping(widened(point), 0, [&](std::size_t c) {
       const auto part = part_of_[c].find(signs);
       if (part == part_of_[c].end()) return;
       CellPart& p = parts_[part->second];
@@ -127,7 +132,13 @@ class PieceCounter {
     if (!cell.mixed.empty() && frees.size() > 1) along = {0.5, 0, 0.02, 0.1, 0.3, 0.7, 0.9, 0.98, 1};
     Box at = cell.sides;
     for (std::size_t face = 0; face < frees.size(); ++face)
-      for (const bool upper : {false, true})
+      for (const bool upper : {false, true}) {
+        if (cell.mixed.empty()) {
+          Box border = cell.sides;
+          Interval& side = border[frees[face]];
+          side = Interval(upper ? side.hi() : side.lo());
+          if (is_joined_over(c, border)) continue;
+        }
         for (const double share : along) {
           for (std::size_t f = 0; f < frees.size(); ++f) {
             const Interval& side = cell.sides[frees[f]];
@@ -136,6 +147,7 @@ class PieceCounter {
           }
           join_at(cells_.solution_over(cell, at), frees);
         }
+      }
   }
 
   // Where two cells end at one point, a small piece about it may meet both.
@@ -228,12 +240,7 @@ class PieceCounter {
       proof.bridges.push_back({boxes[b].free, cells_.cover().regions[boxes[b].region]});
     for (const SignCell& cell : cells_.cells()) proof.cells.push_back({cell.box, sides(cell.free, cell.sides)});
     boost::disjoint_sets_with_storage<> known(parts_.size());
-    for_each_pair([&](std::size_t p, std::size_t q) {
-      const SignCell &a = cell_of(p), &b = cell_of(q);
-      if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected || a.box != b.box) return;
-      if (!a.mixed.empty() && !b.mixed.empty()) return;
-      if (std::ranges::all_of(a.free, [&](int f) { return a.sides[f].overlaps(b.sides[f]); })) known.union_set(p, q);
-    });
+    for_each_pair_of_one_sheet([&](std::size_t p, std::size_t q) { known.union_set(p, q); });
     for (const Joined& joined : joined_) {
       if (known.find_set(joined.part) == known.find_set(joined.other)) continue;
       known.union_set(joined.part, joined.other);
@@ -254,6 +261,32 @@ class PieceCounter {
         for (const auto& [signs, part] : part_of_[c])
           if (const auto other = part_of_[d].find(signs); other != part_of_[d].end()) visit(part, other->second);
       });
+  }
+
+  // Connected parts in cells of one sheet that have a point of X_F in common, and so a solution, of which one cell is a
+  // part by itself: they are of one piece.
+  template <class Visit>
+  void for_each_pair_of_one_sheet(const Visit& visit) {
+    for_each_pair([&](std::size_t p, std::size_t q) {
+      const SignCell &a = cell_of(p), &b = cell_of(q);
+      if (parts_[p].kind != Kind::connected || parts_[q].kind != Kind::connected || a.box != b.box) return;
+      if (!a.mixed.empty() && !b.mixed.empty()) return;
+      if (std::ranges::all_of(a.free, [&](int f) { return a.sides[f].overlaps(b.sides[f]); })) visit(p, q);
+    });
+  }
+
+  // Of a cell without mixed functions: are all connected parts that the box touches, and that its own may be joined with,
+  // joined with it?
+  bool is_joined_over(std::size_t c, const Box& box) {
+    const auto& [signs, part] = *part_of_[c].begin();
+    const std::size_t own = proven_.find_set(part);
+    bool joined = true;
+    tree_.for_each_overlapping(widened(box), 0, [&](std::size_t d) {
+      const auto other = part_of_[d].find(signs);
+      joined = joined && (other == part_of_[d].end() || parts_[other->second].kind != Kind::connected ||
+                          proven_.find_set(other->second) == own);
+    });
+    return joined;
   }
 
   void upper_bound(Pieces& result) {
