@@ -27,20 +27,20 @@ using certify::Equations;
 using certify::Precision;
 using certify::Real;
 template <class T>
-using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+using MatrixOf = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 template <class T>
-using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+using VectorOf = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
 template <class T>
-Vector<T> values(const Equations<T>& f, const std::vector<T>& x) {
-  Vector<T> result(f.rows());
+VectorOf<T> values(const Equations<T>& f, const std::vector<T>& x) {
+  VectorOf<T> result(f.rows());
   for (int row = 0; row < f.rows(); ++row) result(row) = f.value(row, x);
   return result;
 }
 
 template <class T>
-Matrix<T> jacobian(const Equations<T>& f, const std::vector<T>& x) {
-  Matrix<T> j(f.rows(), x.size());
+MatrixOf<T> jacobian(const Equations<T>& f, const std::vector<T>& x) {
+  MatrixOf<T> j(f.rows(), x.size());
   for (int row = 0; row < f.rows(); ++row) {
     const std::vector<T> gradient = f.gradient(row, x);
     for (std::size_t k = 0; k < x.size(); ++k) j(row, k) = gradient[k];
@@ -59,7 +59,7 @@ bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits, const End
   Real shortest = far;
   int since = 0;
   for (int step = 0; step < most && !is_over(ended); ++step) {
-    const Vector<Real> shift = jacobian(f, x).completeOrthogonalDecomposition().solve(values(f, x));
+    const VectorOf<Real> shift = jacobian(f, x).completeOrthogonalDecomposition().solve(values(f, x));
     Real length = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
       x[k] -= shift(k);
@@ -69,7 +69,7 @@ bool iterate(const Equations<Real>& f, std::vector<Real>& x, int bits, const End
     if (2 * length < shortest) shortest = length, since = step;
     if (step - since > kSlowest) return false;
     if (length < enough) {
-      const Vector<Real> residual = values(f, x);
+      const VectorOf<Real> residual = values(f, x);
       return std::all_of(residual.begin(), residual.end(), [&](const Real& value) { return abs(value) < enough; });
     }
   }
@@ -134,7 +134,7 @@ bool iterate_with_double_slopes(const System& system, const Equations<Real>& f, 
   for (double& size : sizes) size = size > 0 ? std::exp2(std::ilogb(size)) : 1;
   slopes.array().colwise() /= sizes.array();
   for (double shortest = 1; shortest >= enough;) {
-    const Vector<Real> value = values(f, x);
+    const VectorOf<Real> value = values(f, x);
     Eigen::VectorXd residual(value.size());
     for (Eigen::Index k = 0; k < value.size(); ++k) residual(k) = value(k).to_double() / sizes(k);
     const Eigen::VectorXd shift = least_squares(slopes, residual, kThreshold).x;
@@ -143,7 +143,7 @@ bool iterate_with_double_slopes(const System& system, const Equations<Real>& f, 
     for (std::size_t k = 0; k < x.size(); ++k) x[k] -= shift(k);
     shortest = length;
   }
-  const Vector<Real> residual = values(f, x);
+  const VectorOf<Real> residual = values(f, x);
   return std::ranges::all_of(residual, [&](const Real& value) { return abs(value) < enough; });
 }
 
