@@ -1,5 +1,6 @@
 // Real numbers and intervals of any precision: MPFR's and MPFI's as values. A new number has as many bits as the thread that
-// makes it is to compute with: no thread changes another's. Inside certify/, and where solve/ looks for zeros in many digits.
+// makes it is to compute with: no thread changes another's. Inside certify/, and where solve/ looks for zeros in many
+// digits.
 #pragma once
 
 #include <concepts>

@@ -1,4 +1,4 @@
-// The values and derivatives of a system's equations in numbers of any type. Inside certify/ and where solve/ looks for zeros
+// The values and derivatives of a system's equations in numbers of any type. Inside certify/, and where solve/ looks for zeros
 // in many digits.
 #pragma once
 
