@@ -1,5 +1,5 @@
-// The values and derivatives of a system's equations in numbers of any type. Inside certify/, and where solve/ looks for zeros
-// in many digits.
+// The values and derivatives of a system's equations in numbers of any type. Inside certify/, and where solve/ looks for
+// zeros in many digits.
 #pragma once
 
 #include <vector>
