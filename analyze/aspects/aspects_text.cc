@@ -174,7 +174,7 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   }
   json["reason"] = !a.reason.empty() ? a.reason : a.aspects.reason;
   json["complete"] = complete;
-  return json.dump(2);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::analyze

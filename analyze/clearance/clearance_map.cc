@@ -112,7 +112,7 @@ std::string to_json(const ClearanceMap& map) {
     for (const MapCell& c : map.cells) json["cells"].push_back(row(c));
   json["processed"] = map.processed;
   json["seconds"] = map.seconds;
-  return json.dump(1);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::analyze

@@ -89,7 +89,7 @@ std::string to_json(const Clearance& c) {
   json["precision"] = c.precision;
   json["processed"] = n.statistics.processed;
   json["seconds"] = c.seconds;
-  return json.dump(2);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string to_table(const Best& b) {
@@ -136,7 +136,7 @@ std::string to_json(const Best& b) {
   json["cells"] = b.cells;
   json["processed"] = b.processed;
   json["seconds"] = b.seconds;
-  return json.dump(2);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::analyze

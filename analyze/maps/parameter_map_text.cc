@@ -127,7 +127,7 @@ std::string to_json(const ParameterMap& map) {
   json["boundary_known"] = map.boundary_known;
   json["processed"] = map.processed;
   json["seconds"] = map.seconds;
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string to_json(const MapTile& tile) {
@@ -136,7 +136,7 @@ std::string to_json(const MapTile& tile) {
               {"boundary", rows(tile.boundary)},
               {"boundary_known", tile.boundary_known},
               {"processed", tile.processed}}
-      .dump();
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 MapTile tile_from_json(const std::string& text) {

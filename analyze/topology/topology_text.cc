@@ -102,7 +102,7 @@ std::string to_json(const study::Question& question, const Topology& t, bool com
   json["reason"] = t.reason.empty() ? t.components.reason : t.reason;
   json["processed"] = t.processed;
   json["complete"] = complete;
-  return json.dump(2);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::analyze

@@ -283,7 +283,8 @@ std::string family_summary(const std::string& model, const std::string& constant
   const Json list = each(members, [](const FamilyMember& member) {
     return Json{{"value", member.value}, {"sets", summaries(member.sets, member.files)}};
   });
-  return Json{{"model", model}, {"constant", constant}, {"page", page}, {"complete", complete}, {"members", list}}.dump(2);
+  return Json{{"model", model}, {"constant", constant}, {"page", page}, {"complete", complete}, {"members", list}}.dump(
+      2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::report

@@ -115,7 +115,7 @@ std::string page_summary(const std::string& model, const std::string& page, cons
                          const std::vector<SetView>& views, bool complete) {
   const Json sets = summaries(views, options.files);
   return Json{{"model", model}, {"page", page}, {"figures", options.figures}, {"complete", complete}, {"sets", sets}}.dump(
-      2);
+      2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::report

@@ -158,7 +158,7 @@ std::string derivation_json(const symbolic::Mechanism& mechanism, const std::opt
   json["set"] = set;
   json["systems"] = Json::array();
   for (const symbolic::TrigonometricSystem& system : systems) json["systems"].push_back(to_json(system));
-  return json.dump(2);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string to_json(const Result& result, const std::optional<Interval>& area) {

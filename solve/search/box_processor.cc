@@ -131,13 +131,16 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   const auto& branching = problem_.branching;
   const double width = problem_.relative_width(x);
   const bool noisy = contractor_.noisy() && width < kNoisySize;
+  const bool surface = problem_.compiled.variables() == problem_.compiled.equations() + 2;
   const certify::NewtonStep* const step = width > problem_.heuristics.wide ? &*contractor_.step() : nullptr;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
     // may be, but not for long. What is regular and yet not proven in a tiny box is next to a degenerate solution: around a
-    // point of a surface there would be no end of such boxes.
-    if (!contractor_.regular() || width < kTiny) near = degenerate_solution(x, share);
+    // point of a surface there would be no end of such boxes, and of surfaces that cross along a curve twice as many of
+    // each next size.
+    if (!contractor_.regular() || width < kTiny || (surface && width < kRegularShare * share))
+      near = degenerate_solution(x, share);
     if (!near)
       split = branching.choose(problem_.compiled, x,
                                problem_.limits(contractor_.regular() ? kFinestShare : kOpenShare * share), step);

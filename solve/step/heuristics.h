@@ -63,6 +63,8 @@ inline constexpr double kFirstShare = 1.0 / 20, kNextShare = 1.0 / 4;
 inline constexpr double kOpenShare = 1.0 / 8;  ///< of that size: how much smaller other unproven boxes get
 inline constexpr double kRankShare = 1;  ///< of a box's size: singular values below make its solution count as degenerate
 inline constexpr double kReach = 8;      ///< of a box's size: how far from it a degenerate solution is looked for
+/// Of that size: what is regular and not proven in such a box of a surface may be next to a degenerate solution. *
+inline constexpr double kRegularShare = 1.0 / 4;
 inline constexpr double kTiny = 1e-6;  ///< what is regular and yet not proven in such a box is next to a degenerate solution
 inline constexpr double kFinestShare = 1e-13;  ///< doubles resolve little more
 inline constexpr double kNoisySize = 2e-3;     ///< in larger boxes it is the choice of Y that makes noise

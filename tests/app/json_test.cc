@@ -84,6 +84,16 @@ TEST(Json, IsNotWrittenOverAModelOrWhereNoFileCanBe) {
   EXPECT_THAT(run_corank({"verify", "--json"}).err, HasSubstr("RESULT is required"));
 }
 
+TEST(Json, IsTextWhateverTheModelsFileIsCalled) {
+  const TemporaryFolder folder;
+  const std::string slider = folder.write("\xe9.cuik", read_text(model("three_slider")));
+  for (const char* command : {"derive", "topology", "aspects", "solve"}) {
+    const Outcome outcome = run_corank({command, slider, "--json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(json::accept(outcome.out)) << command << outcome.out;
+  }
+}
+
 TEST(Json, OfDeriveHasTheEquationsThatItPrints) {
   const json all = json::parse(run_corank({"derive", model("three_slider"), "--set", "forward", "--json"}).out);
   EXPECT_EQ(all["constraints"].size(), 2u);
