@@ -87,7 +87,7 @@ TEST(Json, IsNotWrittenOverAModelOrWhereNoFileCanBe) {
 TEST(Json, IsTextWhateverTheModelsFileIsCalled) {
   const TemporaryFolder folder;
   const std::string slider = folder.write("\xe9.cuik", read_text(model("three_slider")));
-  for (const char* command : {"derive", "topology", "aspects", "solve"}) {
+  for (const char* command : {"derive", "topology", "aspects"}) {
     const Outcome outcome = run_corank({command, slider, "--json"});
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     EXPECT_TRUE(json::accept(outcome.out)) << command << outcome.out;
