@@ -95,9 +95,8 @@ TEST(PiecesFile, OfDextarIsVerified) {
   expect_complete(file);
 }
 
-// Limits end C-space; loci cross on the border of sheets; a parallel robot's slice; a long single-loop's curve.
+// Loci cross on the border of sheets; a curve; the slice of a parallel robot, whose limits end C-space.
 TEST(PiecesFile, OfOtherMechanismsIsVerified) {
-  expect_complete(make_pieces_file("dextar_limits"));
   expect_complete(make_pieces_file("three_slider", {{"L2", "4/5"}}));
   expect_complete(make_pieces_file("planar/four_bar_crank_rocker"));
   expect_complete(make_pieces_file("planar/3rpr", {{"lower1", "6/5"}, {"upper1", "6/5"}}));
@@ -349,7 +348,7 @@ TEST(PiecesFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
   int refused = 0, count = 0, open = 0;
   std::map<std::string, int> refused_of, open_of;
   for (const PiecesFile* good : {&slider_pieces(), &rocker()})
-    for (unsigned seed = 0; seed < test::seeds(80); ++seed, ++count) {
+    for (unsigned seed = 0; seed < test::seeds(40); ++seed, ++count) {
       PiecesFile file = *good;
       const std::string kind = damage(seed, file);
       SCOPED_TRACE(kind + ", " + std::to_string(seed));

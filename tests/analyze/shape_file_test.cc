@@ -458,7 +458,7 @@ TEST(ShapeFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
   int refused = 0, weaker = 0, count = 0;
   std::map<std::string, int> refused_of;
   for (const ShapeFile* good : {&sphere(), &ovals(), &slider()})
-    for (unsigned seed = 0; seed < test::seeds(120); ++seed, ++count) {
+    for (unsigned seed = 0; seed < test::seeds(50); ++seed, ++count) {
       ShapeFile file = *good;
       const std::string kind = Damage(seed).apply(file.shape);
       SCOPED_TRACE(kind + ", " + std::to_string(seed));

@@ -285,7 +285,7 @@ Triangulation sphere(int n) {
 // CORANK_SURFACES=N: N of them.
 TEST(TopologyWithEnds, OfRandomCutsOfSpheresAndToriIsTheOneOfATriangulation) {
   const char* asked = std::getenv("CORANK_SURFACES");
-  const int all = asked ? std::atoi(asked) : 24;
+  const int all = asked ? std::atoi(asked) : 10;
   std::mt19937 random(20261122);
   const auto hundredths = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };
   const std::array coarse_surfaces{torus(200), sphere(200)}, fine_surfaces{torus(420), sphere(420)};
