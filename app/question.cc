@@ -29,8 +29,8 @@ void QuestionOptions::add_options(CLI::App& sub) {
   sub.add_option("--kernel", kernel,
                  "Side of the kernel vector xi of the set's matrix M: right (M xi = 0) or left (M^T xi = 0);\n"
                  "none: solve the set in parts, each with an equation of its own and no kernel vector;\n"
-                 "default: none if the set is a union of parts and has dimension 2 or more, or would need a\n"
-                 "vector of ten unknowns or more; otherwise right if M is square or tall, left if it is wide")
+                 "default: none if the set has dimension 2 or more and such equations, or would need a vector of\n"
+                 "ten unknowns or more; otherwise right if M is square or tall, left if it is wide")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(sub);
   add_outputs(sub);

@@ -232,7 +232,7 @@ class Mechanism:
             sigma_length, sigma_angle: the same for lengths, and for sines and cosines.
             kernel: the side of the kernel vector, "right" or "left"; "none": the set is solved in parts, each with an
                 equation of its own and no kernel vector; None: the side that fits the matrix, or "none" if a set of
-                dimension 2 or more is the union of parts, or if the vector would have ten unknowns or more and no part needs
+                dimension 2 or more has such equations, or if the vector would have ten unknowns or more and no part needs
                 one.
             corank: only configurations at which the kernel has at least this dimension.
             outputs: the outputs for the set "boundary", instead of the model's.

@@ -86,9 +86,18 @@ int BoxProcessor::widest_free(std::span<const Interval> x) {
   const std::vector<double>& scales = problem_.compiled.scales();
   int widest = -1;
   for (int j : other_variables(dependent_, problem_.compiled.variables())) {
+    if (!settled_.empty() && settled_[j]) continue;
     if (widest < 0 || x[j].width() * scales[widest] > x[widest].width() * scales[j]) widest = j;
   }
   return widest;
+}
+
+double BoxProcessor::relative_width(std::span<const Interval> x) const {
+  if (settled_.empty()) return problem_.relative_width(x);
+  Box open = copy_of(x);
+  for (std::size_t j = 0; j < open.size(); ++j)
+    if (settled_[j]) open[j] = Interval(open[j].mid());
+  return problem_.relative_width(open);
 }
 
 void BoxProcessor::add_proven(const Postponed& postponed) {
@@ -129,11 +138,18 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
 // The variable to bisect; −1: the box is small enough to be given up, and `near` says why where that is known.
 int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near) {
   const auto& branching = problem_.branching;
-  const double width = problem_.relative_width(x);
+  settled_ = branching.settled(problem_.compiled, x);
+  const auto limits = [&](double of) {
+    std::vector<double> result = problem_.limits(of);
+    for (std::size_t j = 0; j < settled_.size(); ++j)
+      if (settled_[j]) result[j] = HUGE_VAL;
+    return result;
+  };
+  const double width = relative_width(x);
   const bool noisy = contractor_.noisy() && width < kNoisySize;
   const bool surface = problem_.compiled.variables() == problem_.compiled.equations() + 2;
   const certify::NewtonStep* const step = width > problem_.heuristics.wide ? &*contractor_.step() : nullptr;
-  int split = noisy ? -1 : branching.choose(problem_.compiled, x, problem_.limits(share), step);
+  int split = noisy ? -1 : branching.choose(problem_.compiled, x, limits(share), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
     // may be, but not for long. What is regular and yet not proven in a tiny box is next to a degenerate solution: around a
@@ -142,8 +158,8 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
     if (!contractor_.regular() || width < kTiny || (surface && width < kRegularShare * share))
       near = degenerate_solution(x, share);
     if (!near)
-      split = branching.choose(problem_.compiled, x,
-                               problem_.limits(contractor_.regular() ? kFinestShare : kOpenShare * share), step);
+      split =
+          branching.choose(problem_.compiled, x, limits(contractor_.regular() ? kFinestShare : kOpenShare * share), step);
   }
   // What else cannot be divided waits, too: it may lie on a self-motion.
   if (split < 0 && !near && !problem_.tolerant) {
@@ -170,6 +186,27 @@ std::array<Waiting, 2> BoxProcessor::halves(Waiting box) const {
   return {Waiting{std::move(box.x), box.share * kBisectionPoint, {}}, std::move(upper)};
 }
 
+BoxProcessor::Outcome BoxProcessor::give_up(std::span<Interval> x, Reason reason) {
+  settled_ = problem_.branching.settled(problem_.compiled, x);
+  if (!settled_.empty()) {
+    if (!contractor_.run(x, shard_.statistics)) {
+      if (recorder_) recorder_->leaf_empty();
+      return Outcome::done;
+    }
+    std::vector<double> limits = problem_.limits(kSetShare);
+    for (std::size_t j = 0; j < limits.size(); ++j)
+      if (!settled_[j]) limits[j] = HUGE_VAL;
+    const int split = problem_.branching.choose(problem_.compiled, x, limits);
+    if (split >= 0) {
+      if (recorder_) recorder_->keep(x);
+      split_variable_ = split;
+      return Outcome::split;
+    }
+  }
+  add_unproven(x, Verdict::undecided, reason);
+  return Outcome::done;
+}
+
 BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpone, double share) {
   ++shard_.statistics.processed;
   if (!contractor_.run(x, shard_.statistics)) {
@@ -186,14 +223,14 @@ BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpo
   }
   if (near) {
     if (recorder_) recorder_->keep(x);
-    const bool noisy = contractor_.noisy() && problem_.relative_width(x) < kNoisySize;
+    const bool noisy = contractor_.noisy() && relative_width(x) < kNoisySize;
     shard_.postponed.push_back({{copy_of(x), share, go_on_later()}, std::move(*near), noisy, {}, {}});
     return Outcome::postponed;
   }
   // At its final size: where equations may be redundant, the box gets its one chance of such a proof here, where its rank
   // shows.
   if (problem_.redundant.applies() && certify(x, Proof::partial)) return Outcome::done;
-  give_up(x, Reason::tolerance);
+  add_unproven(x, Verdict::undecided, Reason::tolerance);
   return Outcome::done;
 }
 

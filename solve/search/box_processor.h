@@ -39,15 +39,18 @@ class BoxProcessor {
   bool cut(const Proven& proven, bool whole);
   /// Makes a box that a limit has left a pending one, unless it is outside the domain.
   void leave(const Waiting& box);
-  /// Adds x, which nothing could be proven of, to the found boxes.
-  void give_up(std::span<const Interval> x, Reason reason) { add_unproven(x, Verdict::undecided, reason); }
+  /// Adds x, which nothing could be proven of, to the found boxes: done. Or x is still to be divided along what was settled,
+  /// and has shrunk: split; or it is empty: done.
+  Outcome give_up(std::span<Interval> x, Reason reason);
   int split_variable() const { return split_variable_; }
   /// The lower and the upper part of a box that is to be bisected, without nodes.
   std::array<Waiting, 2> halves(Waiting box) const;
 
  private:
-  // The widest side that Newton leaves free, −1 where there is none.
+  // The widest side that Newton leaves free, −1 where there is none. Settled sides do not count.
   int widest_free(std::span<const Interval> x);
+  // The largest ratio of a side to its typical size; settled sides do not count.
+  double relative_width(std::span<const Interval> x) const;
   // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns
   // true.
   enum class Proof { full, partial };
@@ -72,6 +75,7 @@ class BoxProcessor {
   Contractor contractor_;
   Slicer slicer_;
   int split_variable_ = -1;
+  std::vector<bool> settled_;  // BranchingRule::settled() of the box that is treated
   std::vector<int> dependent_;
 };
 

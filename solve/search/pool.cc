@@ -47,6 +47,18 @@ void Pool::spawn(WorkList list, const Work& of) {
   });
 }
 
+void Pool::divide(Worker& worker, Waiting box, WorkList& list) {
+  auto [lower, upper] = worker.processor.halves(std::move(box));
+  if (auto& script = worker.shard.script) {
+    lower.node = script->new_node();
+    upper.node = script->new_node();
+    const int j = worker.processor.split_variable();
+    script->split(j, upper.x[j].lo(), lower.node, upper.node);
+  }
+  list.push_back(std::move(upper));
+  list.push_back(std::move(lower));
+}
+
 // Depth first, so that memory grows with the depth; or the oldest first (Work::until), so that there soon are many.
 void Pool::work(WorkList list, const Work& of) {
   const UpwardRounding rounding;
@@ -79,15 +91,7 @@ void Pool::work(WorkList list, const Work& of) {
       continue;
     }
     if (outcome == BoxProcessor::Outcome::split) {
-      auto [lower, upper] = processor.halves(std::move(box));
-      const int j = processor.split_variable();
-      if (script) {
-        lower.node = script->new_node();
-        upper.node = script->new_node();
-        script->split(j, upper.x[j].lo(), lower.node, upper.node);
-      }
-      list.push_back(std::move(upper));
-      list.push_back(std::move(lower));
+      divide(worker, std::move(box), list);
       tally_.one_more_waits();
     } else {
       tally_.one_less_waits();
@@ -127,8 +131,13 @@ void Pool::add_proven(const Postponed& box) {
 
 void Pool::give_up(const Postponed& box, Reason reason) {
   Worker& worker = workers_.local();
-  if (worker.shard.script) worker.shard.script->begin(box.box.node, box.box.x, variables());
-  worker.processor.give_up(box.box.x, reason);
+  WorkList parts{box.box};
+  while (!parts.empty()) {
+    Waiting part = std::move(parts.back());
+    parts.pop_back();
+    if (worker.shard.script) worker.shard.script->begin(part.node, part.x, variables());
+    if (worker.processor.give_up(part.x, reason) == BoxProcessor::Outcome::split) divide(worker, std::move(part), parts);
+  }
   tally_.done_with(box.box.share);
   count(worker);
 }

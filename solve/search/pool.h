@@ -77,6 +77,8 @@ class Pool {
   void count(Worker& worker) { tally_.count(worker.shard, worker.counted); }
   // Boxes that wait, the newest last.
   using WorkList = std::deque<Waiting>;
+  // Adds the halves of the box at its processor's split_variable(), with nodes of their own.
+  static void divide(Worker& worker, Waiting box, WorkList& list);
   void spawn(WorkList list, const Work& of);
   void work(WorkList list, const Work& of);
 

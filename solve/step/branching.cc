@@ -58,10 +58,31 @@ int only_variable(const Polynomial& f) {
   return only;
 }
 
+// The equations of two variables or more that share none with another equation or an inequality.
+std::vector<int> equations_alone(const System& system) {
+  std::vector<int> uses(system.variables.size(), 0);
+  const auto variables_of = [](const Polynomial& f) {
+    std::set<int> result;
+    for (const auto& m : f.monomials)
+      for (const auto& factor : m.factors) result.insert(factor.variable);
+    return result;
+  };
+  for (const auto* list : {&system.equations, &system.inequalities})
+    for (const Polynomial& f : *list)
+      for (const int v : variables_of(f)) ++uses[v];
+  std::vector<int> result;
+  for (std::size_t row = 0; row < system.equations.size(); ++row) {
+    const std::set<int> own = variables_of(system.equations[row]);
+    if (own.size() > 1 && std::ranges::all_of(own, [&](int v) { return uses[v] == 1; }))
+      result.push_back(static_cast<int>(row));
+  }
+  return result;
+}
+
 }  // namespace
 
 BranchingRule::BranchingRule(const System& system, double kernel_weight, int kernel_vectors)
-    : weight_(system.variables.size(), 1.0), patience_(system.variables.size(), 1.0) {
+    : weight_(system.variables.size(), 1.0), patience_(system.variables.size(), 1.0), alone_(equations_alone(system)) {
   const auto defined = linearly_defined(system);
   const auto is_kernel = [](const Variable& v) { return v.kind == VariableKind::kernel; };
   const bool late =
@@ -100,6 +121,22 @@ std::vector<double> BranchingRule::smear(const certify::CompiledSystem& system, 
       result[j] += std::sqrt(part[j] / sum);
     }
   }
+  return result;
+}
+
+std::vector<bool> BranchingRule::settled(const certify::CompiledSystem& system, std::span<const Interval> x) const {
+  std::vector<bool> result;
+  if (alone_.empty()) return result;
+  result.resize(weight_.size(), false);
+  std::vector<Interval> jacobian(system.entries());
+  system.jacobian(x, jacobian);
+  for (const int row : alone_) {
+    const auto begin = jacobian.begin() + system.row_begin(row), end = jacobian.begin() + system.row_begin(row + 1);
+    if (std::none_of(begin, end, [](const Interval& d) { return d.width() < kSettledShare * d.mig(); })) continue;
+    for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) result[system.column(k)] = true;
+  }
+  const auto is_so = [](bool settled) { return settled; };
+  if (std::ranges::all_of(result, is_so) || std::ranges::none_of(result, is_so)) result.clear();
   return result;
 }
 

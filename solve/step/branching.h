@@ -31,6 +31,11 @@ class BranchingRule {
   int choose(const certify::CompiledSystem& system, std::span<const Interval> x, const std::vector<double>& limits,
              const certify::NewtonStep* step = nullptr) const;
 
+  /// Of each variable: is it one of an equation that shares no variable with any other, such as the circle of a motor that
+  /// turns freely, and is that equation's solution in x a sheet? The set is a product with that sheet, and dividing x along
+  /// it helps nothing. Empty where there is no such equation, or no other.
+  std::vector<bool> settled(const certify::CompiledSystem& system, std::span<const Interval> x) const;
+
   const std::vector<double>& weights() const { return weight_; }
   /// How much wider than another variable, in typical sizes, x_j may be when a box is small enough to be put off: not 1 only
   /// for the unknowns of a kernel vector of many whose configurations are isolated. There the directions of ξ in a box that
@@ -42,6 +47,7 @@ class BranchingRule {
 
   std::vector<double> weight_;  // 0: defined by others, see branching.cc
   std::vector<double> patience_;
+  std::vector<int> alone_;  // the equations that share no variable
 };
 
 }  // namespace corank::solve

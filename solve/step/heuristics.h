@@ -19,15 +19,15 @@ struct Heuristics {
   double wide = 0.2;          ///< of the typical sizes: what a Newton step says of narrower boxes misleads a bisection
 };
 
-/// For a (reduced) system. `tolerant`: its equations may be redundant, and its solutions of larger dimension. C-spaces might
-/// have fewer, larger boxes, but aspects are told from these; each division of a surface of singularities makes many boxes.
+/// For a (reduced) system. `tolerant`: its equations may be redundant, and its solutions of larger dimension. Each division
+/// of a surface makes many boxes, most where it has a kernel vector.
 inline Heuristics heuristics_for(const System& system, bool tolerant) {
   const std::size_t dimension = system.variables.size() - std::min(system.variables.size(), system.equations.size());
   const bool singular =
       std::ranges::any_of(system.variables, [](const Variable& v) { return v.kind == VariableKind::kernel; });
   if (dimension == 0) return tolerant || singular ? Heuristics{} : Heuristics{.gain = 0.07, .repeats = 8};
-  if (!singular) return {};
-  if (dimension == 1) return {.gain = 0.1};
+  if (dimension == 1) return singular ? Heuristics{.gain = 0.1} : Heuristics{};
+  if (!singular) return {.proof_spread = 2, .free_share = 0.4};
   return {.gain = 0.02, .repeats = 20, .proof_spread = 2, .sheet_spread = 3, .free_share = 0.5, .wide = 0.03};
 }
 /// For the solutions over cells of parameters.
@@ -53,6 +53,8 @@ inline constexpr int kMostExchanges = 16;
 inline constexpr double kBisectionPoint = 0.47;
 inline constexpr double kLeastSmear = 1e-6;   ///< a variable that no equation holds has its turn, too
 inline constexpr double kAloneWeight = 1000;  ///< of a variable with an equation of its own: before all others *
+/// An equation alone has a sheet where a derivative varies by less than this share of its least magnitude.
+inline constexpr double kSettledShare = 0.5;
 /// A kernel vector of this many unknowns or more waits for the configuration. *
 inline constexpr int kManyUnknowns = 6;
 inline constexpr double kLateWeight = 0.01, kLatePatience = 100;

@@ -250,9 +250,9 @@ class Decomposer {
   void add_conditions(const std::vector<Expression>& conditions) {
     for (const Expression& condition : conditions) {
       const std::vector<DependentAngle> angles = dependent_angles_of(space_, condition);
-      for (const DependentAngle& angle : angles) add({angle.text(), angle, {}, matrix_.is_explicit()});
+      for (const DependentAngle& angle : angles) add({angle.text(), angle});
       if (!angles.empty()) continue;
-      add({name_of(condition), {}, condition, matrix_.is_explicit()});
+      add({name_of(condition), {}, condition});
     }
   }
 

@@ -23,9 +23,6 @@ struct Component {
   std::string name;  ///< "phi_rod1 = theta1", "x_C = 0", "condition on theta1, theta2, theta3 (2)"
   std::optional<DependentAngle> dependent_angle{};  ///< of sin(a ∓ b) = 0 or cos(a ∓ b) = 0, each a part for either way
   std::optional<Expression> condition{};
-  /// Φ gives all other coordinates as polynomials in those that the condition and its own may hold, as an arm's joints give
-  /// its links: the part is a hypersurface among free coordinates.
-  bool is_free = false;
   std::optional<ExpressionMatrix> block{};  ///< with a kernel vector: more than three rows whose determinant is no product
 
   /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.

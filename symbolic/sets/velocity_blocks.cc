@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corank/core/check.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/velocity/exact_matrix.h"
 
@@ -13,8 +14,10 @@ constexpr std::array kChosen{Role::input, Role::output};
 
 Block block_of(std::span<const Role> locked) {
   if (locked.empty()) return Block::all;
-  if (locked.size() > 1) return Block::passive;
-  return locked.front() == Role::input ? Block::forward : Block::inverse;
+  if (std::ranges::equal(locked, kInputs)) return Block::forward;
+  if (std::ranges::equal(locked, kOutputs)) return Block::inverse;
+  CORANK_CHECK(std::ranges::equal(locked, kChosen));
+  return Block::passive;
 }
 
 // The rows of dependencies, in the columns of the role alone.

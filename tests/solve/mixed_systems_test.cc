@@ -147,5 +147,59 @@ TEST(MixedSystems, KeepTheirPlantedPointsAndTheirClaimsAreVerified) {
   EXPECT_LE(rejected, count / 200);
 }
 
+// Two lines that cross at a planted point, and a motor that turns freely: the circle is divided where a box is small but for
+// it, not before.
+TEST(MixedSystems, OfAFreeMotorAndACrossingArePlantedProducts) {
+  const unsigned first = first_seed(), count = test::seeds(3);
+  for (unsigned seed = first; seed < first + count; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto number = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };
+    test::SystemBuilder b;
+    const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1"), c = b.variable("c", "-1", "1"),
+              s = b.variable("s", "-1", "1");
+    const int p = number(-4, 4), q = number(-4, 4), m = number(1, 5), k = -number(1, 5);  // tenths; y − q = m (x − p) and k
+    const auto text = [](int numerator, int denominator) {
+      return std::to_string(numerator) + "/" + std::to_string(denominator);
+    };
+    // (v − m u)(v − k u) with u = x − p/10, v = y − q/10
+    const int mk = m * k, sum = m + k;
+    b.equation({{"1", {{y, 2}}},
+                {std::to_string(-sum), {{x, 1}, {y, 1}}},
+                {std::to_string(mk), {{x, 2}}},
+                {text(sum * p - 2 * q, 10), {{y, 1}}},
+                {text(sum * q - 2 * mk * p, 10), {{x, 1}}},
+                {text(q * q - sum * p * q + mk * p * p, 100), {}}});
+    b.equation({{"1", {{c, 2}}}, {"1", {{s, 2}}}, {"-1", {}}});
+    Options options;
+    options.sigma = 0.1;
+    options.proof = seed % 2 == 0;
+    options.max_boxes = 5'000;
+    const Cover cover = solve(b.system(), options);
+    EXPECT_TRUE(cover.complete());
+    for (int step = 0; step < 60; ++step) {
+      const double t = 0.1 * step, u = -1 + step / 30.0;
+      for (const int slope : {m, k}) {
+        const double at_x = p / 10.0 + u / 8, at_y = q / 10.0 + slope * u / 8;
+        if (std::fabs(at_x) < 1 && std::fabs(at_y) < 1) {
+          EXPECT_TRUE(covers(cover, {at_x, at_y, std::cos(t), std::sin(t)})) << step;
+        }
+      }
+    }
+    std::size_t wide = 0, near = 0;
+    for (const CoverBox& box : cover.boxes) {
+      if (box.verdict != Verdict::undecided) continue;
+      wide += box.box[static_cast<std::size_t>(c)].width() > 0.1 || box.box[static_cast<std::size_t>(s)].width() > 0.1;
+      near += std::fabs(box.box[0].mid() - p / 10.0) < 0.1 && std::fabs(box.box[1].mid() - q / 10.0) < 0.1;
+    }
+    EXPECT_EQ(wide, 0u) << "what nothing is proven of is as small as anything else";
+    EXPECT_EQ(near, cover.count(Verdict::undecided));
+    EXPECT_GT(near, 0u) << "lines cross";
+    const check::Report report = check::check(b.system(), cover);
+    EXPECT_TRUE(report.failures.empty());
+    EXPECT_EQ(report.proof.verified, options.proof);
+  }
+}
+
 }  // namespace
 }  // namespace corank::solve

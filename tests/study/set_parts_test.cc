@@ -265,12 +265,15 @@ TEST(SetPartsOf, SurfacesByDefaultAndOfCurvesWhereTheyAreAskedFor) {
               ElementsAre("2*h*sin(psi2) - cos(psi2) = 0", "2*h*sin(psi3) + cos(psi3) = 0", "cos(psi1) = 0"));
   for (auto change : std::vector<std::function<void(Question&)>>{
            [](Question& q) { q.kernel = symbolic::KernelSide::right; }, [](Question& q) { q.corank = 2; },
-           [](Question& q) { q.in_parts = false; }, [](Question& q) { q.set = SingularitySet::forward; },
-           [](Question& q) { q.set = SingularitySet::cspace; }}) {
+           [](Question& q) { q.in_parts = false; }, [](Question& q) { q.set = SingularitySet::cspace; }}) {
     Question other = legs;
     change(other);
     EXPECT_THAT(names_of(parts_of(other)), ElementsAre("whole"));
   }
+  legs.set = SingularitySet::forward;  // one equation in place of the kernel vector
+  EXPECT_THAT(names_of(parts_of(legs)), ElementsAre("condition on psi1, psi2, psi3, pose_phi"));
+  Question block{.model = model_named("planar/3rpr"), .set = SingularitySet::forward};
+  EXPECT_THAT(names_of(parts_of(block)), ElementsAre("whole"));
   Question curve{.model = model_named("dextar"), .set = SingularitySet::forward};
   EXPECT_THAT(names_of(parts_of(curve)), ElementsAre("whole"));
   curve.in_parts = true;
