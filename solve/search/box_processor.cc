@@ -92,6 +92,19 @@ int BoxProcessor::widest_free(std::span<const Interval> x) {
   return widest;
 }
 
+void BoxProcessor::find_settled(std::span<const Interval> x) {
+  settled_.clear();
+  // What tolerances leave unproven is given up at once, and is to be narrow then.
+  if (!problem_.tolerant) settled_ = problem_.branching.settled(problem_.compiled, x);
+}
+
+std::vector<double> BoxProcessor::limits(double share, Sides of) const {
+  std::vector<double> result = problem_.limits(share);
+  for (std::size_t j = 0; j < settled_.size(); ++j)
+    if (settled_[j] != (of == Sides::settled)) result[j] = HUGE_VAL;
+  return result;
+}
+
 double BoxProcessor::relative_width(std::span<const Interval> x) const {
   if (settled_.empty()) return problem_.relative_width(x);
   Box open = copy_of(x);
@@ -138,18 +151,12 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
 // The variable to bisect; −1: the box is small enough to be given up, and `near` says why where that is known.
 int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near) {
   const auto& branching = problem_.branching;
-  settled_ = branching.settled(problem_.compiled, x);
-  const auto limits = [&](double of) {
-    std::vector<double> result = problem_.limits(of);
-    for (std::size_t j = 0; j < settled_.size(); ++j)
-      if (settled_[j]) result[j] = HUGE_VAL;
-    return result;
-  };
+  find_settled(x);
   const double width = relative_width(x);
   const bool noisy = contractor_.noisy() && width < kNoisySize;
   const bool surface = problem_.compiled.variables() == problem_.compiled.equations() + 2;
   const certify::NewtonStep* const step = width > problem_.heuristics.wide ? &*contractor_.step() : nullptr;
-  int split = noisy ? -1 : branching.choose(problem_.compiled, x, limits(share), step);
+  int split = noisy ? -1 : branching.choose(problem_.compiled, x, limits(share, Sides::open), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
     // Where Newton is regular a smaller box may be proven; where no degenerate solution is near a smaller one is empty or
     // may be, but not for long. What is regular and yet not proven in a tiny box is next to a degenerate solution: around a
@@ -158,8 +165,8 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
     if (!contractor_.regular() || width < kTiny || (surface && width < kRegularShare * share))
       near = degenerate_solution(x, share);
     if (!near)
-      split =
-          branching.choose(problem_.compiled, x, limits(contractor_.regular() ? kFinestShare : kOpenShare * share), step);
+      split = branching.choose(problem_.compiled, x,
+                               limits(contractor_.regular() ? kFinestShare : kOpenShare * share, Sides::open), step);
   }
   // What else cannot be divided waits, too: it may lie on a self-motion.
   if (split < 0 && !near && !problem_.tolerant) {
@@ -187,16 +194,13 @@ std::array<Waiting, 2> BoxProcessor::halves(Waiting box) const {
 }
 
 BoxProcessor::Outcome BoxProcessor::give_up(std::span<Interval> x, Reason reason) {
-  settled_ = problem_.branching.settled(problem_.compiled, x);
-  if (!settled_.empty()) {
+  find_settled(x);
+  if (!settled_.empty() && !preconditioners_.over()) {
     if (!contractor_.run(x, shard_.statistics)) {
       if (recorder_) recorder_->leaf_empty();
       return Outcome::done;
     }
-    std::vector<double> limits = problem_.limits(kSetShare);
-    for (std::size_t j = 0; j < limits.size(); ++j)
-      if (!settled_[j]) limits[j] = HUGE_VAL;
-    const int split = problem_.branching.choose(problem_.compiled, x, limits);
+    const int split = problem_.branching.choose(problem_.compiled, x, limits(kSetShare, Sides::settled));
     if (split >= 0) {
       if (recorder_) recorder_->keep(x);
       split_variable_ = split;

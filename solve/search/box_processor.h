@@ -39,17 +39,21 @@ class BoxProcessor {
   bool cut(const Proven& proven, bool whole);
   /// Makes a box that a limit has left a pending one, unless it is outside the domain.
   void leave(const Waiting& box);
-  /// Adds x, which nothing could be proven of, to the found boxes: done. Or x is still to be divided along what was settled,
-  /// and has shrunk: split; or it is empty: done.
+  /// Adds x, which nothing could be proven of, to the found boxes: done; so is an x that turns out empty. But where settled
+  /// sides are still wide and the search goes on, x shrinks and is to be bisected along them: split.
   Outcome give_up(std::span<Interval> x, Reason reason);
   int split_variable() const { return split_variable_; }
   /// The lower and the upper part of a box that is to be bisected, without nodes.
   std::array<Waiting, 2> halves(Waiting box) const;
 
  private:
-  // The widest side that Newton leaves free, −1 where there is none. Settled sides do not count.
+  void find_settled(std::span<const Interval> x);
+  // Problem::limits for these sides; the others may be as wide as they are.
+  enum class Sides { open, settled };
+  std::vector<double> limits(double share, Sides of) const;
+  // The widest of the sides that Newton leaves free and that are not settled; −1 where there is none.
   int widest_free(std::span<const Interval> x);
-  // The largest ratio of a side to its typical size; settled sides do not count.
+  // The largest ratio of a side that is not settled to its typical size.
   double relative_width(std::span<const Interval> x) const;
   // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns
   // true.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/solve/step/heuristics.h"
 
 namespace corank::solve {
@@ -47,32 +48,15 @@ std::vector<bool> linearly_defined(const System& system) {
   return linear;
 }
 
-// The variable of an equation that has no other; −1 for another equation.
-int only_variable(const Polynomial& f) {
-  int only = -1;
-  for (const auto& m : f.monomials)
-    for (const auto& factor : m.factors) {
-      if (only >= 0 && factor.variable != only) return -1;
-      only = factor.variable;
-    }
-  return only;
-}
-
 // The equations of two variables or more that share none with another equation or an inequality.
 std::vector<int> equations_alone(const System& system) {
   std::vector<int> uses(system.variables.size(), 0);
-  const auto variables_of = [](const Polynomial& f) {
-    std::set<int> result;
-    for (const auto& m : f.monomials)
-      for (const auto& factor : m.factors) result.insert(factor.variable);
-    return result;
-  };
   for (const auto* list : {&system.equations, &system.inequalities})
     for (const Polynomial& f : *list)
-      for (const int v : variables_of(f)) ++uses[v];
+      for (const int v : certify::variables_of(f)) ++uses[v];
   std::vector<int> result;
   for (std::size_t row = 0; row < system.equations.size(); ++row) {
-    const std::set<int> own = variables_of(system.equations[row]);
+    const std::vector<int> own = certify::variables_of(system.equations[row]);
     if (own.size() > 1 && std::ranges::all_of(own, [&](int v) { return uses[v] == 1; }))
       result.push_back(static_cast<int>(row));
   }
@@ -95,7 +79,7 @@ BranchingRule::BranchingRule(const System& system, double kernel_weight, int ker
     if (defined[j]) weight_[j] = 0;
   }
   for (const Polynomial& f : system.equations)
-    if (const int j = only_variable(f); j >= 0) weight_[j] = kAloneWeight;
+    if (const std::vector<int> own = certify::variables_of(f); own.size() == 1) weight_[own[0]] = kAloneWeight;
   if (std::ranges::all_of(weight_, [](double w) { return w == 0; })) std::ranges::fill(weight_, 1.0);
 }
 

@@ -159,7 +159,7 @@ TEST(AspectCusps, OfPlantedMapsAreKnownAndNoneIsFalse) {
   const auto tenths = [&](int spread) { return std::uniform_int_distribution(-spread, spread)(random); };
   const auto tenth = [](int n) { return Expression(n) / Expression(10); };
   int bounded = 0, cusps = 0, lost = 0, wrong = 0;
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < 12; ++k) {
     SCOPED_TRACE(k);
     const bool forward = k % 2 == 0, tail = k % 4 > 1;
     const std::array in{10 + tenths(4), tenths(4), tenths(4), 10 + tenths(4), 1 + 2 * (k % 3), 3 - k % 2};
@@ -201,7 +201,7 @@ TEST(AspectCusps, OfPlantedMapsAreKnownAndNoneIsFalse) {
       wrong += cusp.between && sign(cusp.between);
     }
   }
-  EXPECT_GE(cusps, 4) << bounded;
+  EXPECT_GE(cusps, 6) << bounded;
   EXPECT_EQ(lost, 0);
   EXPECT_EQ(wrong, 0);
 }

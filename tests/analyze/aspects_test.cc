@@ -38,7 +38,7 @@ TEST(Aspects, OfTheThreeSlidersAreArcs) {
 }
 
 TEST(Aspects, DoNotDependOnTheUnitOfLength) {
-  for (const std::string unit : {"1/1000", "1000000"}) {
+  for (const std::string unit : {"1/1000", "1", "100", "1000000"}) {
     auto model = study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism;
     model.set_constant("l", symbolic::Expression("9/10*" + unit));
     model.set_constant("d", symbolic::Expression("59/50*" + unit));

@@ -95,8 +95,9 @@ TEST(PiecesFile, OfDextarIsVerified) {
   expect_complete(file);
 }
 
-// Loci cross on the border of sheets; a curve; the slice of a parallel robot, whose limits end C-space.
+// Limits end C-space; loci cross on the border of sheets; a parallel robot's slice; a long single-loop's curve.
 TEST(PiecesFile, OfOtherMechanismsIsVerified) {
+  expect_complete(make_pieces_file("dextar_limits"));
   expect_complete(make_pieces_file("three_slider", {{"L2", "4/5"}}));
   expect_complete(make_pieces_file("planar/four_bar_crank_rocker"));
   expect_complete(make_pieces_file("planar/3rpr", {{"lower1", "6/5"}, {"upper1", "6/5"}}));

@@ -213,7 +213,7 @@ TEST(Topology, OfRandomPentagonsIsTheKnownOne) {
   std::mt19937 random(20261122);
   std::uniform_int_distribution<int> side(50, 300);
   int known = 0;
-  const int all = 6;
+  const int all = 12;
   for (int k = 0; k < all; ++k) {
     std::vector<int> sides;
     for (int i = 0; i < 5; ++i) sides.push_back(side(random));

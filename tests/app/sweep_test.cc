@@ -277,7 +277,7 @@ TEST(Sweep, HasTheSameResultsForAnyNumberOfThreads) {
   const TemporaryFolder folder;
   // C-space takes more memory than searches that are made ahead may; the loci do not.
   const auto sweep = [&](const std::string& name, const std::string& threads) {
-    return run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:2", "--sigma", "0.02", "--cspace-sigma", "0.04",
+    return run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:3", "--sigma", "0.02", "--cspace-sigma", "0.04",
                        "--threads", threads, "-o", folder.file(name)});
   };
   const Outcome one = sweep("1", "1"), four = sweep("4", "4");
@@ -288,10 +288,11 @@ TEST(Sweep, HasTheSameResultsForAnyNumberOfThreads) {
   };
   EXPECT_EQ(findings(one), findings(four));
   EXPECT_EQ(page_model(folder.file("1")), page_model(folder.file("4")));
-  for (const char* figure : {"family.svg", "member-1.svg", "member-2.svg"})
+  for (const char* figure : {"family.svg", "member-1.svg", "member-2.svg", "member-3.svg"})
     EXPECT_EQ(read_text(folder.file("1/figures/") + figure), read_text(folder.file("4/figures/") + figure));
-  for (const char* name : {"member-1-cspace.h5", "member-1-forward.h5", "member-1-inverse.h5", "member-2-cspace.h5",
-                           "member-2-forward.h5", "member-2-inverse.h5"}) {
+  for (const char* name :
+       {"member-1-cspace.h5", "member-1-forward.h5", "member-1-inverse.h5", "member-2-cspace.h5", "member-2-forward.h5",
+        "member-2-inverse.h5", "member-3-cspace.h5", "member-3-forward.h5", "member-3-inverse.h5"}) {
     const Result a = result::read_result(folder.file("1/") + name), b = result::read_result(folder.file("4/") + name);
     EXPECT_EQ(a.options.threads, 1);
     EXPECT_EQ(b.options.threads, 4);

@@ -459,7 +459,7 @@ study::Question limited_platform(const std::string& unit) {
 
 TEST(Boundary, HasTheSameBarriersAndAreaInEveryUnitOfLength) {
   std::map<Passage, double> first;
-  for (const auto& [text, unit] : {std::pair("1/1000", 1e-3), {"1000000", 1e6}}) {
+  for (const auto& [text, unit] : {std::pair("1", 1.0), {"1/1000", 1e-3}, {"1000000", 1e6}}) {
     const study::Question question = limited_platform(text);
     const result::Result result = study::answer(question);
     EXPECT_TRUE(result.cover.complete());
