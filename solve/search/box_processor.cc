@@ -162,11 +162,15 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
     // may be, but not for long. What is regular and yet not proven in a tiny box is next to a degenerate solution: around a
     // point of a surface there would be no end of such boxes, and of surfaces that cross along a curve twice as many of
     // each next size.
-    if (!contractor_.regular() || width < kTiny || (surface && width < kRegularShare * share))
+    if (!contractor_.regular() || width < kTiny || (surface && width < kRegularShare * share) || !settled_.empty())
       near = degenerate_solution(x, share);
-    if (!near)
-      split = branching.choose(problem_.compiled, x,
-                               limits(contractor_.regular() ? kFinestShare : kOpenShare * share, Sides::open), step);
+    const auto choose = [&](double finest, Sides sides) {
+      return branching.choose(problem_.compiled, x, limits(finest, sides), step);
+    };
+    if (!near && (!contractor_.regular() || !settled_.empty())) split = choose(kOpenShare * share, Sides::open);
+    // Settled sides wait where a degenerate solution is; where none is, a proof may need them narrow.
+    if (!near && split < 0 && !settled_.empty()) split = choose(share, Sides::settled);
+    if (!near && split < 0 && contractor_.regular()) split = choose(kFinestShare, Sides::open);
   }
   // What else cannot be divided waits, too: it may lie on a self-motion.
   if (split < 0 && !near && !problem_.tolerant) {

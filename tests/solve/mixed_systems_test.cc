@@ -174,7 +174,7 @@ TEST(MixedSystems, OfAFreeMotorAndACrossingArePlantedProducts) {
     Options options;
     options.sigma = 0.1;
     options.proof = seed % 2 == 0;
-    options.max_boxes = 5'000;
+    options.max_boxes = 10'000;
     const Cover cover = solve(b.system(), options);
     EXPECT_TRUE(cover.complete());
     for (int step = 0; step < 60; ++step) {
@@ -198,6 +198,36 @@ TEST(MixedSystems, OfAFreeMotorAndACrossingArePlantedProducts) {
     const check::Report report = check::check(b.system(), cover);
     EXPECT_TRUE(report.failures.empty());
     EXPECT_EQ(report.proof.verified, options.proof);
+  }
+}
+
+// The great circle in which a plane cuts a sphere, or two points of it, times a circle or a sphere of other variables: all
+// of it is regular, and a proof may need the parts of the second factor narrow.
+TEST(MixedSystems, OfAFreeMotorAndARegularSetAreRegular) {
+  const unsigned first = first_seed(), count = test::seeds(6);
+  for (unsigned seed = first; seed < first + count; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto number = [&](int least, int most) { return std::uniform_int_distribution<int>(least, most)(random); };
+    const auto tenths = [&](int least, int most) { return std::to_string(number(least, most)) + "/10"; };
+    const bool curve = seed % 2 == 0, sphere = seed % 3 == 0;
+    test::SystemBuilder b;
+    const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2"), z = b.variable("z", "-2", "2");
+    b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"1", {{z, 2}}}, {"-1", {}}});
+    b.equation({{"1", {{z, 1}}}, {tenths(1, 9), {{x, 1}}}, {"-" + tenths(1, 9), {{y, 1}}}});
+    if (!curve) b.equation({{"1", {{x, 1}}}, {"-" + tenths(1, 6), {}}});
+    std::vector<test::SystemBuilder::Term> free = {{"-1", {}}};
+    for (const char* name : {"a", "b", "c"})
+      if (name[0] != 'c' || sphere) free.push_back({"1", {{b.variable(name, "-2", "2"), 2}}});
+    b.equation(free);
+    Options options;
+    options.sigma = 0.2;
+    options.max_boxes = 20'000;
+    const Cover cover = solve(b.system(), options);
+    EXPECT_TRUE(cover.complete());
+    EXPECT_EQ(cover.dimension, (curve ? 1 : 0) + (sphere ? 2 : 1));
+    EXPECT_GT(cover.boxes.size(), 0u);
+    EXPECT_EQ(cover.count(Verdict::regular), cover.boxes.size());
   }
 }
 
