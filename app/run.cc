@@ -132,7 +132,8 @@ void check_values(const CLI::App& program) {
     for (const CLI::Option* option : sub->get_options()) {
       const std::string type = option->get_type_name();
       const bool is_count = type == "N" || type.starts_with("UINT") || type.starts_with("N:");
-      const bool is_time = type.starts_with("SECONDS"), is_number = is_time || type.starts_with("FLOAT");
+      const bool is_time = type.starts_with("SECONDS"), is_sigma = type == "S|inf";
+      const bool is_number = is_time || is_sigma || type.starts_with("FLOAT");
       const bool may_be_empty = option->get_positional() || option->check_lname("json") || option->check_lname("title");
       for (const std::string& value : option->results()) {
         if (value.empty() && option->check_sname("o")) throw UsageError("-o: no name given; expected the name of a file");
@@ -140,9 +141,11 @@ void check_values(const CLI::App& program) {
         if (is_count && is_too_large(value))
           throw UsageError(fmt::format("{}: {} given; expected a smaller number", option->get_name(), value));
         const double number = is_number ? std::strtod(value.c_str(), nullptr) : 0;
-        if (std::isfinite(number) && !(is_time && number < 0)) continue;
+        if ((std::isfinite(number) && !(is_time && number < 0)) || (is_sigma && value == "inf")) continue;
         throw UsageError(fmt::format("{}: {} given; expected {}", option->get_name(), value,
-                                     is_time ? "seconds, from 0 on; 0: no limit" : "a number"));
+                                     is_time    ? "seconds, from 0 on; 0: no limit"
+                                     : is_sigma ? "a number, or inf"
+                                                : "a number"));
       }
     }
   }

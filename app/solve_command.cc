@@ -39,11 +39,14 @@ CLI::Validator seconds() {
 void add_solve_options(CLI::App& sub, SolveCommand& command) {
   command.question.add_options(sub);
   sub.add_option(
-      "--sigma", command.sigma,
-      "Largest edge of a box, in lengths and in the sines and cosines of angles; default: a share of the size of\n"
-      "the set found, 1/200 for a curve, 1/60 for a surface, 1/20 for more dimensions");
-  sub.add_option("--sigma-length", command.sigma_length, "The same for lengths only, in the model's unit");
-  sub.add_option("--sigma-angle", command.sigma_angle, "The same for the sines and cosines of angles only");
+         "--sigma", command.sigma,
+         "Largest edge of a box, in lengths and in the sines and cosines of angles; default: a share of the size of\n"
+         "the set found, 1/200 for a curve, 1/60 for a surface, 1/20 for more dimensions; inf: leave proven sheets whole")
+      ->type_name("S|inf");
+  sub.add_option("--sigma-length", command.sigma_length, "The same for lengths only, in the model's unit")
+      ->type_name("S|inf");
+  sub.add_option("--sigma-angle", command.sigma_angle, "The same for the sines and cosines of angles only")
+      ->type_name("S|inf");
   sub.add_option("--tolerance", command.tolerance,
                  "Let each coefficient that is not an integer vary by REL of its size, independently of the others;\n"
                  "0: coefficients are exact; default: 1e-6 for a plain system with more equations than variables, else 0")

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::uint64_t kMostBoxes = 200'000;     // of each search for a configuration
 constexpr std::uint64_t kMostBoxesNear = 20'000;  // of that with rounded coefficients
-constexpr double kUncut = 1e9;                    // a sigma above which no sheet is cut
 constexpr double kFine = 0.01;                // of the default sigma: a box that is not proven at this size may be far off
 constexpr std::uint64_t kSheets[] = {1, 64};  // the first one may leave the ranges
 
@@ -24,7 +23,7 @@ bool is_inside(const CoverBox& box) { return box.verdict == Verdict::regular || 
 
 // The sheet's solution over the middle of its free variables, by a proof of its own: a narrow box.
 std::optional<Cover> at_its_middle(const System& system, const CoverBox& sheet, solve::Control& control) {
-  solve::Options options{.sigma = kUncut, .roots = {sheet.box}};
+  solve::Options options{.sigma = solve::kWhole, .roots = {sheet.box}};
   for (const int v : sheet.free) {
     Interval& side = options.roots.front()[v];
     side = Interval(side.mid());
@@ -38,7 +37,7 @@ std::optional<Cover> at_its_middle(const System& system, const CoverBox& sheet, 
 Cover find_configuration(const System& system, solve::Control& control) {
   Cover cover;
   for (const std::uint64_t sheets : kSheets) {
-    solve::Options options{.sigma = kUncut, .max_solutions = sheets, .proof = system.coefficient_tolerance == 0};
+    solve::Options options{.sigma = solve::kWhole, .max_solutions = sheets, .proof = system.coefficient_tolerance == 0};
     cover = search(system, options, control);
     for (const CoverBox& box : cover.boxes) {
       if (!is_inside(box) && box.verdict != Verdict::boundary) continue;

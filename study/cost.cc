@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "corank/result/values/summary.h"
+
 namespace corank::study {
 namespace {
 
@@ -64,8 +68,8 @@ solve::CostEstimate estimate(const std::vector<System>& systems, const solve::Op
 
 std::string to_table(const solve::CostEstimate& cost, int threads) {
   constexpr double kManyPostponed = 0.01;
-  std::string text = fmt::format("estimate by a trial of {:.1f} s, for sigma {:g} in lengths, {:g} in sines and cosines\n\n",
-                                 cost.trial_seconds, cost.sigma.length, cost.sigma.angle);
+  std::string text =
+      fmt::format("estimate by a trial of {:.1f} s, for {}\n\n", cost.trial_seconds, result::sigma_text(cost.sigma));
   text += "boxes to process    " + count_text(cost.processed) + "\n";
   text += "boxes returned      " + count_text(cost.boxes) + "\n";
   text +=
@@ -85,12 +89,14 @@ std::string to_table(const solve::CostEstimate& cost, int threads) {
 }
 
 std::string to_json(const solve::CostEstimate& cost, int threads) {
+  const auto sigma = [](double value) { return std::isinf(value) ? "null" : fmt::format("{:.17g}", value); };
   return fmt::format(
       "{{\n  \"processed\": {},\n  \"sheets\": {},\n  \"boxes\": {},\n  \"seconds\": {},\n  \"memory_bytes\": {},\n"
-      "  \"file_bytes\": {},\n  \"sigma_length\": {:.17g},\n  \"sigma_angle\": {:.17g},\n  \"threads\": {},\n"
+      "  \"file_bytes\": {},\n  \"sigma_length\": {},\n  \"sigma_angle\": {},\n  \"threads\": {},\n"
       "  \"whole_tree\": {},\n  \"postponed\": {:.6g},\n  \"trial_seconds\": {:.6g}\n}}",
       json_of(cost.processed), json_of(cost.sheets), json_of(cost.boxes), json_of(cost.seconds), json_of(cost.memory),
-      json_of(cost.file), cost.sigma.length, cost.sigma.angle, threads, cost.whole_tree, cost.postponed, cost.trial_seconds);
+      json_of(cost.file), sigma(cost.sigma.length), sigma(cost.sigma.angle), threads, cost.whole_tree, cost.postponed,
+      cost.trial_seconds);
 }
 
 }  // namespace corank::study

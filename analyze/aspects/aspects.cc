@@ -47,13 +47,8 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   for (const auto& e : loci.factors[0]) result.forward_factors.push_back(e.text());
   for (const auto& e : loci.factors[1]) result.inverse_factors.push_back(e.text());
 
-  const std::vector<Interval> domain = result.system.domain();
-  const auto widest =
-      std::ranges::max_element(domain, [](const Interval& a, const Interval& b) { return a.width() < b.width(); });
-  const solve::Options search{.sigma = 2 * widest->width() + 2,  // sheets are not cut
-                              .threads = options.threads,
-                              .proof = options.certificate,
-                              .proof_of_parts = false};
+  const solve::Options search{
+      .sigma = solve::kWhole, .threads = options.threads, .proof = options.certificate, .proof_of_parts = false};
   const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
   // A box that a limit has left is no sheet.
   if (!std::ranges::all_of(cover.boxes, is_sheet)) {

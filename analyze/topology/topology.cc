@@ -131,10 +131,11 @@ HeightCount count_critical_points(const study::Question& question, int height, c
 // Components with σ as fine as it takes, from whole sheets on.
 Components refined_components(Solved& space, const TopologyOptions& options, std::uint64_t& processed,
                               solve::Control& control) {
-  double sigma = solve::uncut_sigma(space.system);
+  double widest = 1;
+  for (const Interval& side : space.system.domain()) widest = std::max(widest, side.width());
   Components best;
-  for (int k = 0; k <= options.refinements; ++k, sigma /= k == 1 ? 16 : 2) {
-    Cover cover = solved(space.system, sigma, options, control);
+  for (int k = 0; k <= options.refinements; ++k) {
+    Cover cover = solved(space.system, k == 0 ? solve::kWhole : widest / std::exp2(k + 3), options, control);
     processed += cover.statistics.processed;
     const Components found = components(space.system, cover, control);
     if (k > 0 && !cover.complete()) break;
@@ -222,7 +223,7 @@ Components components_within(const System& system, const Cover& cover, const std
 
 Topology found(const study::Question& question, Solved& space, const TopologyOptions& options, solve::Control& control) {
   Topology result;
-  Cover whole = solved(space.system, solve::uncut_sigma(space.system), options, control);
+  Cover whole = solved(space.system, solve::kWhole, options, control);
   result.dimension = whole.dimension;
   if (whole.complete() && whole.dimension > 0) {
     const std::vector<Limit> touched = limits(space.system, whole);

@@ -62,7 +62,7 @@ struct Topology {
 struct TopologyOptions {
   int threads = 1;
   int halvings = 16, rounds = 16;               ///< SignCells::refine, where the set has ends
-  int refinements = 6;                          ///< σ is halved so often while links or gaps are missing
+  int refinements = 5;                          ///< σ is halved so often while links or gaps are missing
   std::uint64_t most_for_a_height = 2'000'000;  ///< boxes processed in a search for critical points
   bool certificate = false;                     ///< keep what it takes to check the result
 };

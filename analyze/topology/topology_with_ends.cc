@@ -90,7 +90,7 @@ class EdgePieces {
   EdgePieces(const certify::Strata& strata, int end, const std::vector<Limit>& ends, const TopologyOptions& options,
              std::uint64_t& processed, solve::Control& control)
       : system_(with_single_values(strata.edge(end))) {
-    const solve::Options search{.sigma = solve::uncut_sigma(system_), .threads = options.threads};
+    const solve::Options search{.sigma = solve::kWhole, .threads = options.threads};
     const Cover cover = solve::solve(solve::prepare(strata.edge(end), search, control), control);
     processed += cover.statistics.processed;
     if (!cover.complete() || (!cover.boxes.empty() && cover.dimension != 1) || !std::ranges::all_of(cover.boxes, is_sheet))
@@ -190,7 +190,7 @@ std::vector<Limit> without_unreached(const System& system, std::vector<Limit> en
   constexpr std::uint64_t kMost = 20'000;  // boxes of a search: an end that takes more counts as reached
   const certify::Strata strata(system, {ends.begin(), ends.end()}, 0);
   std::vector<Limit> reached;
-  const solve::Options search{.sigma = solve::uncut_sigma(system), .threads = options.threads};
+  const solve::Options search{.sigma = solve::kWhole, .threads = options.threads};
   for (std::size_t k = 0; k < ends.size(); ++k) {
     const Cover cover = solve::solve(solve::prepare(strata.edge(static_cast<int>(k)), search, control), control, kMost);
     processed += cover.statistics.processed;

@@ -277,7 +277,7 @@ class Mechanism:
         return deliver(Result(core), raised)
 
     def topology(
-        self, *, threads: int = 0, refinements: int = 6, time_limit: float = 0, progress: ProgressOption = None
+        self, *, threads: int = 0, refinements: int = 5, time_limit: float = 0, progress: ProgressOption = None
     ) -> "analyses.Topology":
         """Finds the shape of the C-space, or of a plain system's solutions: pieces, Euler characteristic, genus. All is
         proven.

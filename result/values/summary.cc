@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "corank/certify/algebraic_number.h"
@@ -185,12 +186,13 @@ std::string seconds_text(const Cover& cover) {
                      s.seconds_certify);
 }
 
-std::string sigma_text(const Sigma& sigma) {
-  if (sigma.length == sigma.angle) return fmt::format("sigma {:g}", sigma.length);
-  return fmt::format("sigma {:g} in lengths, {:g} in sines and cosines", sigma.length, sigma.angle);
-}
-
 }  // namespace
+
+std::string sigma_text(const Sigma& sigma) {
+  if (sigma.length != sigma.angle)
+    return fmt::format("sigma {:g} in lengths, {:g} in sines and cosines", sigma.length, sigma.angle);
+  return std::isinf(sigma.length) ? "sigma inf: proven sheets are left whole" : fmt::format("sigma {:g}", sigma.length);
+}
 
 std::string along_set_text(const Cover& cover) {
   if (cover.observed_dimension <= cover.dimension) return "along a curve, or a larger set, of degenerate solutions";

@@ -16,6 +16,9 @@ namespace corank::result {
 /// why it is not proven.
 std::string along_set_text(const Cover& cover);
 
+/// The σ of a search, as tables say it.
+std::string sigma_text(const Sigma& sigma);
+
 /// A few lines for a terminal: the set, its verdicts, and the points of a set of dimension 0 (configuration only,
 /// angles in radians, bounds rounded outward).
 std::string to_table(const Result& result);

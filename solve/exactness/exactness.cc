@@ -160,7 +160,7 @@ class Prover {
     // Whether there is any box is asked, not how many.
     try {
       for (const System& face : *faces) {
-        const Options options{.sigma = uncut_sigma(face), .threads = prepared_.options.threads};
+        const Options options{.sigma = kWhole, .threads = prepared_.options.threads};
         const Cover solutions = solve(prepare(face, options, control_), control_, kFaceBoxes);
         if (!solutions.complete() || !solutions.boxes.empty()) return false;
       }

@@ -19,7 +19,7 @@ std::string format(double x) {
 }
 
 void check_positive(const char* name, double value) {
-  if (!(value > 0) || !std::isfinite(value)) throw OptionError(name, format(value) + " is not a positive number");
+  if (!(value > 0)) throw OptionError(name, format(value) + " is not a positive number");
 }
 
 void check_at_least(const char* name, const std::optional<double>& sigma, double least) {
@@ -38,6 +38,7 @@ void Options::validate() const {
   if (sigma_length) check_positive("sigma_length", *sigma_length);
   if (sigma_angle) check_positive("sigma_angle", *sigma_angle);
   check_positive("coarser", coarser);
+  if (!std::isfinite(coarser)) throw OptionError("coarser", format(coarser) + " is not a finite number");
   if (threads < 0 || threads > kMostThreads)
     throw OptionError("threads", std::to_string(threads) + " is not in the range 0 to " + std::to_string(kMostThreads));
   if (!(time_limit >= 0) || !std::isfinite(time_limit))
@@ -59,12 +60,6 @@ Control::Limits limits_of(const Options& options, const std::atomic<bool>* stop)
           .memory = options.memory_limit,
           .stop = stop,
           .later_bytes = 0};  // files are written without a copy
-}
-
-double uncut_sigma(const System& system) {
-  double widest = 1;
-  for (const Interval& side : system.domain()) widest = std::max(widest, side.width());
-  return 2 * widest;
 }
 
 Sigma smallest_sigma(const System& system) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -25,11 +26,14 @@ class OptionError : public std::invalid_argument {
   std::string option_, reason_;
 };
 
+/// A σ with which no sheet is cut.
+inline constexpr double kWhole = std::numeric_limits<double>::infinity();
+
 struct Options {
   /// Largest edge that a proven box may have, in lengths and in the sines and cosines of angles; kernel vectors and
   /// auxiliary variables may be wider. Default: a share of the size of the set that is found (solve/step/sigma.h). σ says
   /// how finely proven sheets are cut, it does not steer the search, unless coefficients carry a tolerance. Boxes that stay
-  /// wider are counted in Cover::wider_than_sigma.
+  /// wider are counted in Cover::wider_than_sigma. kWhole: the proven sheets stay whole.
   std::optional<double> sigma{};
   std::optional<double> sigma_length{}, sigma_angle{};  ///< take sigma's place, each for its kind
   double coarser = 1;                                   ///< the default of σ, multiplied
@@ -60,9 +64,6 @@ inline constexpr int kMostThreads = 1024;
 
 /// Those of the options that end a run; `stop`: Control::Limits::stop.
 Control::Limits limits_of(const Options& options, const std::atomic<bool>* stop = nullptr);
-
-/// A σ that is wider than every sheet in the search domain: none is cut.
-double uncut_sigma(const System& system);
 
 /// The least σ that a search accepts: below it the rounding of doubles would keep boxes from becoming that narrow.
 Sigma smallest_sigma(const System& system);

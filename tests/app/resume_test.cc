@@ -12,6 +12,7 @@
 #include <array>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "corank/result/files/checkpoint.h"
@@ -150,6 +151,26 @@ TEST(Refine, CutsTheSheetsAsASearchWithThatSigmaDoes) {
   EXPECT_EQ(without.status, 1);
   EXPECT_THAT(without.err, HasSubstr("--keep-sheets"));
   EXPECT_EQ(run_corank({"solve", "--refine", coarse, "--sigma", "0.05"}).status, 2) << "without -o";
+}
+
+TEST(Refine, CutsSheetsThatAreWhole) {
+  const TemporaryFolder folder;
+  const std::string whole = folder.file("whole.h5"), fine = folder.file("fine.h5"), anew = folder.file("anew.h5");
+  for (const auto& [file, set] : {std::pair("dextar", "cspace"), {"serial/puma_560", "inverse"}}) {
+    SCOPED_TRACE(file);
+    const Words solve{"solve", model(file), "--set", set, "-D", "lo3=-1", "-D", "up3=0"};
+    const Words question = file == std::string("dextar") ? Words(solve.begin(), solve.begin() + 4) : solve;
+    const Outcome first = run_corank(with(question, {"--sigma", "inf", "--keep-sheets", "-o", whole, "--json"}));
+    ASSERT_EQ(first.status, 0) << first.err;
+    EXPECT_TRUE(nlohmann::json::parse(first.out)["options"]["sigma"].is_null());
+    EXPECT_EQ(run_corank({"solve", "--refine", whole, "--sigma", "0.2", "-o", fine}).status, 0);
+    EXPECT_EQ(run_corank(with(question, {"--sigma", "0.2", "-o", anew})).status, 0);
+    expect_same(anew, fine);
+    const result::Result sheets = result::read_result(whole), boxes = result::read_result(fine);
+    EXPECT_EQ(sheets.cover.wider_than_sigma, 0u);
+    EXPECT_LT(2 * sheets.cover.boxes.size(), boxes.cover.boxes.size());
+    EXPECT_EQ(run_corank({"verify", whole}).status, 4) << "every claim, but no proof of completeness";
+  }
 }
 
 TEST(Refine, IsRefusedWhereSigmaSteersTheSearch) {

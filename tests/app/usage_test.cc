@@ -93,7 +93,7 @@ TEST(Usage, IsRefusedWithStatus2AndOneLine) {
       {{"derive", slider, "--format", "pdf"}, "pdf"},
       {{"solve", slider, "--set", "forward", "--sigma", "0"}, "--sigma"},
       {{"solve", slider, "--set", "forward", "--sigma", "-1"}, "--sigma"},
-      {{"solve", slider, "--set", "forward", "--sigma", "inf"}, "--sigma"},
+      {{"solve", slider, "--set", "forward", "--sigma", "-inf"}, "--sigma"},
       {{"solve", slider, "--set", "forward", "--sigma", "nan"}, "--sigma"},
       {{"solve", slider, "--set", "forward", "--sigma", "small"}, "--sigma"},
       {{"solve", slider, "--set", "forward", "--sigma"}, "--sigma"},
