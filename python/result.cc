@@ -203,6 +203,7 @@ void bind_result(py::module_& module) {
   type.def_property_readonly("configuration_size", [](const Result& r) { return r->configuration_size; });
   type.def_property_readonly("variables", &variables);
   type.def_property_readonly("angles", &angles);
+  type.def_property_readonly("free_coordinates", [](const Result& r) { return r->free_coordinates; });
   type.def_property_readonly("motions", [](const Result& r) { return r->motions; });
   type.def_property_readonly("decimals", [](const Result& r) { return r->cover.decimals; });
   type.def_property_readonly("types_asked", [](const Result& r) { return r->cover.types.asked; });

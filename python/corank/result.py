@@ -304,6 +304,12 @@ class Result:
         return list(self._core.motions)
 
     @property
+    def free_coordinates(self) -> List[str]:
+        """The coordinates that take every value in their ranges, whatever the others are: the set is a product with
+        these ranges."""
+        return list(self._core.free_coordinates)
+
+    @property
     def parts(self) -> List["Result"]:
         """The results of the parts of a set that is solved in parts (a workspace's boundary, or a union); else empty."""
         return [Result(part) for part in self._core.parts]

@@ -123,6 +123,7 @@ void store_description(File& to, Data& result, bool oldest = false) {
   file.list("/angles/", result.angles, kAngleFields);
   store_options(to, result.options, oldest);
   store_texts_if_any(to, "/outputs", result.outputs);
+  store_texts_if_any(to, "/free_coordinates", result.free_coordinates);
 }
 
 // Of boxes that have sides, verdicts and free variables.

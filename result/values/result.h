@@ -98,6 +98,9 @@ struct Result {
   /// configuration's variables alone, and leaves what is proven of them to the parts (merge_parts).
   std::string part;
   std::string condition;  ///< of a part that is a factor's: "d1 - x = 0"
+  /// Coordinates that take every value in their ranges, whatever those of the others are: the set is the product of these
+  /// ranges with a set in the others, but for coordinates without a declared range, which follow from all.
+  std::vector<std::string> free_coordinates;
   std::vector<Result> parts;
   /// Of an empty set of a robot: what was found out about its C-space (result/values/sentences.h), one result or none. Its
   /// boxes, if any, are those about one configuration, or, where no such one was found, what the search had left.

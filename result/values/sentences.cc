@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "corank/certify/contact.h"
+#include "corank/certify/polynomial_algebra.h"
 #include "corank/core/exact_number.h"
 #include "corank/result/values/tallies.h"
 #include "corank/result/values/words.h"
@@ -174,6 +176,55 @@ std::vector<std::string> assembly_sentences(const Result& result) {
         "sqrt(3)/2",
         kRounding));
   return list;
+}
+
+std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, const System& system, bool from_parts) {
+  const auto is_value = [&](int v) {  // of the others, wherever they are
+    const auto& list = mechanism.coordinates();
+    const auto c = std::ranges::find(list, system.variables[v].name, &symbolic::Coordinate::name);
+    return c != list.end() && c->kind == symbolic::CoordinateKind::length && (!c->has_range || (from_parts && c->auxiliary));
+  };
+  std::vector<std::vector<int>> rows;
+  std::vector<const Polynomial*> equations;
+  for (const Polynomial& f : system.equations) rows.push_back(certify::variables_of(f)), equations.push_back(&f);
+  std::vector<int> uses(system.variables.size(), 0);
+  for (const Polynomial& g : system.inequalities) rows.push_back(certify::variables_of(g));
+  for (const std::vector<int>& row : rows)
+    for (const int v : row) ++uses[v];
+  const auto is_linear_in = [](const Polynomial& f, int v) {
+    return std::ranges::all_of(f.monomials, [v](const Monomial& m) {
+      const bool mentions = std::ranges::find(m.factors, v, &Factor::variable) != m.factors.end();
+      return !mentions || (m.degree() == 1 && !m.is_trigonometric());
+    });
+  };
+  for (bool any = true; std::exchange(any, false);)
+    for (std::size_t i = 0; i < equations.size(); ++i) {
+      const auto says = [&](int v) { return uses[v] == 1 && is_value(v) && is_linear_in(*equations[i], v); };
+      if (std::ranges::none_of(rows[i], says)) continue;
+      for (const int v : std::exchange(rows[i], {})) --uses[v];
+      any = true;
+    }
+  std::vector<std::string> result;
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
+    if (!c.has_range || c.direction || c.auxiliary || symbolic::is_fixed(c)) continue;
+    const auto angle = std::ranges::find(system.angles, c.name, &Angle::name);
+    std::vector<int> own{system.find(c.name)};
+    if (angle != system.angles.end()) own = {angle->cosine, angle->sine};
+    if (own[0] < 0) continue;
+    // An angle has its circle, and both may have their ranges.
+    std::size_t left = 0;
+    bool alone = true;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto is_own = [&](int v) { return std::ranges::find(own, v) != own.end(); };
+      if (std::ranges::none_of(rows[i], is_own)) continue;
+      const bool is_equation = i < equations.size();
+      left += is_equation;
+      alone = alone && std::ranges::all_of(rows[i], is_own) &&
+              (is_equation || system.inequalities[i - equations.size()].source == "range of " + c.name);
+    }
+    if (alone && left == own.size() - 1) result.push_back(c.name);
+  }
+  return result;
 }
 
 void describe_domain(const symbolic::Mechanism& mechanism, const System& system, Result& result) {

@@ -174,8 +174,9 @@ std::string parts_text(const Result& result) {
     const std::size_t boxes = part.cover.boxes.size(), open = part.cover.count(Verdict::undecided);
     empty += boxes == 0;
     if (boxes > 0)
-      text += fmt::format("  {:<{}}  {:>8}{}{}\n", part.part, width, counted(boxes, "box"),
-                          open > 0 ? fmt::format(", {} undecided", open) : "", part.cover.complete() ? "" : ", INCOMPLETE");
+      text += fmt::format("  {:<{}}  {:>8}{}{}{}\n", part.part, width, counted(boxes, "box"),
+                          open > 0 ? fmt::format(", {} undecided", open) : "", part.cover.complete() ? "" : ", INCOMPLETE",
+                          part.free_coordinates.empty() ? "" : ", for every " + listed(part.free_coordinates));
   }
   return text + (empty > 0 ? fmt::format("  {} without a solution\n", counted(empty, "part")) : "");
 }
@@ -249,6 +250,8 @@ std::string to_table(const Result& result) {
                            : "INCOMPLETE: the search ended early; solutions may also be in the pending boxes\n";
   if (!result.stopped.empty()) text += fmt::format("stopped by {}\n", result.stopped);
   for (const std::string& sentence : range_end_sentences(result.domain)) text += sentence + "\n";
+  if (!result.free_coordinates.empty() && !cover.boxes.empty())
+    text += fmt::format("a product: solutions stay solutions for every {}\n", listed(result.free_coordinates));
   if (cover.boxes.empty()) {
     text += fmt::format("\nempty: there is no solution in the search domain   ({} processed)\n", cover.statistics.processed);
     if (const std::string meaning = locus_sentence(result); !meaning.empty()) text += meaning + "\n";

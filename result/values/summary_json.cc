@@ -102,6 +102,7 @@ Json parts_json(const Result& result) {
                   {"dimension", part.cover.dimension},
                   {"complete", part.cover.complete()}};
     if (!part.condition.empty()) entry["condition"] = part.condition;
+    entry["free_coordinates"] = part.free_coordinates;
     const auto counts = part.cover.counts();
     for (const Verdict verdict : kVerdictsInOrder)
       if (const std::size_t n = counts[static_cast<std::size_t>(verdict)]; n > 0) entry[to_string(verdict)] = n;
@@ -247,6 +248,7 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
   json["kernel"] = kernel_json(result);
   if (!result.outputs.empty()) json["boundary"] = passages_json(result);
   if (area) json["area"] = ends(*area);
+  json["free_coordinates"] = result.free_coordinates;
   if (!result.parts.empty()) json["parts"] = parts_json(result);
   json["types"] = types_json(cover);
   if (cover.types.left_out > 0) json["left_out"] = cover.types.left_out;

@@ -8,10 +8,13 @@
 #include <random>
 #include <utility>
 
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/core/threads.h"
+#include "corank/solve/cutting/cut_planner.h"
 #include "corank/solve/search/box_processor.h"
 #include "corank/solve/search/passes.h"
+#include "corank/solve/step/preconditioner.h"
 #include "corank/solve/store/memory.h"
 
 namespace corank::solve {
@@ -26,6 +29,7 @@ constexpr double kClockSpread = 0.35;                // of times: caches, other 
 // Measured (bench/HISTORY.md): sorting a box and lifting it to all variables; looking whether pieces of a curve merge.
 constexpr double kStartSeconds = 3e-3, kAssemblySeconds = 1e-6, kMergingSeconds = 1.5e-6;
 constexpr double kMostPieces = 20'000;  // of one sheet: a larger one is cut more coarsely, and counted up
+constexpr std::size_t kMostSheets = 5'000, kLargestSheets = 30;
 
 double cpu_seconds() {
   timespec now{};
@@ -35,7 +39,7 @@ double cpu_seconds() {
 
 struct Weighed {
   Proven sheet;
-  double weight;
+  double weight, pieces = 0;
 };
 
 struct Trial {
@@ -161,16 +165,31 @@ class Estimator {
     return e;
   }
 
-  // So many pieces a sheet would make if its free sides alone had to become σ.
-  double size_of(const Proven& sheet, double coarser) const {
+  // So many pieces a sheet would make, linearized, with problem_'s σ.
+  double pieces_of(const Proven& proven) {
+    const certify::Sheet& sheet = proven.sheet;
+    Box sides = sheet.image;
+    const auto& p = preconditioners_.at_midpoint(sides, &sheet.dependent, &sheet.equations);
+    const certify::NewtonStep step = certify::tighten_sheet(problem_.compiled, p, sides, workspace_);
+    problem_.append_values(sides);
     double product = 1;
-    for (const int j : other_variables(sheet.sheet.dependent, problem_.compiled.variables())) {
-      const std::size_t k = j;
-      Interval side = sheet.sheet.image[k];
-      side.intersect(sheet.x[k]);
-      product *= std::max(1.0, side.width() / (coarser * problem_.sigma[k]));
-    }
+    for (const int count : planner_.parts(step, other_variables(sheet.dependent, problem_.compiled.variables()), sides))
+      product *= count;
     return product;
+  }
+
+  // By which σ is to be multiplied, so that no sheet makes too many pieces. The largest ones come first.
+  double coarser_for(const Sigma& sigma) {
+    const auto by_size = [](const Weighed& a, const Weighed& b) { return a.pieces > b.pieces; };
+    const std::size_t first = std::min(kLargestSheets, sheets_.size());
+    std::ranges::partial_sort(sheets_, sheets_.begin() + static_cast<std::ptrdiff_t>(first), by_size);
+    double coarser = 1;
+    const auto makes_too_many = [&](const Weighed& sheet) { return pieces_of(sheet.sheet) > kMostPieces; };
+    while (std::any_of(sheets_.begin(), sheets_.begin() + static_cast<std::ptrdiff_t>(first), makes_too_many)) {
+      coarser *= 1.5;
+      problem_.set_sigma({sigma.length * coarser, sigma.angle * coarser});
+    }
+    return coarser;
   }
 
   void add_cutting(CostEstimate& e, double seconds) {
@@ -178,13 +197,17 @@ class Estimator {
     for (const Weighed& sheet : sheets_) all.sheets.push_back(sheet.sheet);
     e.sigma = problem_.tolerant ? sigma_of_search(prepared_, problem_) : sigma_of_set(prepared_, problem_, {&all});
     problem_.set_sigma(e.sigma);
-    double largest = 1, whole_size = 0;
-    for (const Weighed& sheet : sheets_) largest = std::max(largest, size_of(sheet.sheet, 1));
-    const double dimension = std::max(1, prepared_.reduction.system.dimension());
-    const double coarser = std::max(1.0, std::pow(largest / kMostPieces, 1 / dimension));
-    for (const Weighed& sheet : sheets_) whole_size += sheet.weight * size_of(sheet.sheet, coarser);
-    problem_.set_sigma({e.sigma.length * coarser, e.sigma.angle * coarser});
-    const double scale = std::pow(coarser, dimension);
+    std::ranges::shuffle(sheets_, random_);
+    if (sheets_.size() > kMostSheets) {
+      for (Weighed& sheet : sheets_) sheet.weight *= static_cast<double>(sheets_.size()) / kMostSheets;
+      sheets_.resize(kMostSheets);
+    }
+    double whole_size = 0;
+    for (Weighed& sheet : sheets_) {
+      sheet.pieces = pieces_of(sheet.sheet);
+      whole_size += sheet.weight * sheet.pieces;
+    }
+    const double coarser = coarser_for(e.sigma);
     Shard shard(1, false);
     BoxProcessor processor(problem_, shard);
     std::ranges::shuffle(sheets_, random_);
@@ -197,11 +220,12 @@ class Estimator {
       const double now = cpu_seconds();
       if (cut > 0 && (now - begun > seconds || control_.ended())) break;
       processor.cut(sheet.sheet, false);
-      const double proxy = sheet.weight * size_of(sheet.sheet, coarser);
+      const double proxy = sheet.weight * sheet.pieces;
+      const double taken = cpu_seconds() - now, scale = coarser > 1 ? sheet.pieces / pieces_of(sheet.sheet) : 1;
       size += proxy;
-      pieces += sheet.weight * static_cast<double>(shard.found.size());
+      pieces += sheet.weight * scale * static_cast<double>(shard.found.size());
       squares += proxy * proxy;
-      spent += sheet.weight * (cpu_seconds() - now);
+      spent += sheet.weight * scale * taken;
       for (std::size_t i = 0; i < shard.found.size(); ++i)
         bytes += static_cast<double>(memory.of(shard.found[i], i > 0 ? &shard.found[i - 1] : nullptr));
       found += static_cast<double>(shard.found.size());
@@ -209,12 +233,12 @@ class Estimator {
       ++cut;
     }
     const double ratio = size > 0 ? whole_size / size : 0;
-    const double boxes = pieces * ratio * scale + unproven_;
+    const double boxes = pieces * ratio + unproven_;
     const double sampling = cut < sheets_.size() && size > 0 ? std::sqrt(squares) / size : 0;
     const double spread = std::hypot(sheets_error_, std::hypot(sampling, coarser > 1 ? kLeastSpread : 0));
     e.boxes = range_of(boxes, spread);
     const int threads = threads_for(prepared_.options.threads);
-    const double cutting = spent * ratio * scale;
+    const double cutting = spent * ratio;
     const bool curve = prepared_.reduction.system.dimension() == 1;
     const double total = search_seconds_ + cutting;
     const double after = kStartSeconds + boxes * (kAssemblySeconds + (curve ? kMergingSeconds : 0));
@@ -233,6 +257,9 @@ class Estimator {
   const double seconds_;
   std::mt19937 random_;
   Problem problem_;
+  PreconditionerFactory preconditioners_{problem_.compiled};
+  certify::NewtonWorkspace workspace_;
+  CutPlanner planner_{problem_};
   std::vector<Weighed> sheets_;
   double sheets_error_ = 0, search_seconds_ = 0, search_error_ = 0, unproven_ = 0;
 };

@@ -6,12 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "corank/result/files/result_file.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {
 namespace {
 
 using nlohmann::json;
+using Words = std::vector<std::string>;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -37,6 +39,25 @@ TEST(SetPartsOnTheCommandLine, AreListedAndStoredAndVerified) {
   }
   EXPECT_EQ(boxes, result["boxes"]["regular"].get<std::size_t>() + result["boxes"]["boundary"].get<std::size_t>());
   EXPECT_EQ(result["options"]["kernel"], json());
+}
+
+TEST(SetPartsOnTheCommandLine, AreProductsWithTheCoordinatesThatTheyLeaveFree) {
+  const TemporaryFolder folder;
+  const Words solve{"solve", model("serial/puma_560"), "--set", "inverse", "--sigma", "inf"};
+  const Outcome asked = run_corank(with(solve, {"--json", "-o", folder.file("r.h5")}));
+  EXPECT_EQ(asked.status, 0) << asked.err;
+  const json result = json::parse(asked.out);
+  const std::vector<json> expected{{"theta2", "theta3"}, {"theta2", "theta5"}, {"theta5"}};
+  ASSERT_EQ(result["parts"].size(), expected.size());
+  const result::Result read = result::read_result(folder.file("r.h5"));
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_EQ(result["parts"][k]["free_coordinates"], expected[k]) << result["parts"][k];
+    EXPECT_EQ(json(read.parts.at(k).free_coordinates), expected[k]);
+  }
+  EXPECT_EQ(result["free_coordinates"], json::array()) << "the union is no product";
+  EXPECT_THAT(run_corank(solve).out, HasSubstr(", for every theta2 and theta5\n"));
+  EXPECT_THAT(run_corank({"solve", model("planar/arm_4r"), "--set", "cspace", "--sigma", "inf"}).out,
+              HasSubstr("a product: solutions stay solutions for every theta1, theta2, theta3 and theta4\n"));
 }
 
 TEST(SetPartsOnTheCommandLine, AreLeftTogetherWhereAKernelIsAskedFor) {

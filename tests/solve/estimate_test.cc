@@ -36,6 +36,20 @@ TEST(Estimate, OfAWholeTreeIsItsSize) {
   EXPECT_EQ(cost.processed.low, cost.processed.high);
 }
 
+// Four free values, 1 to a side, and y = 1000 (a + b + c + d): it takes 40,000 cells along y, and about 40 along each of
+// three others.
+TEST(Estimate, CutsNoSheetInFullWhoseImagesAreFiner) {
+  SystemBuilder b;
+  std::vector<SystemBuilder::Term> sum;
+  for (const char* name : {"a", "b", "c", "d"}) sum.push_back({"1000", {{b.variable(name, "-1", "1"), 1}}});
+  sum.push_back({"-1", {{b.variable("y", "-5000", "5000"), 1}}});
+  b.equation(sum);
+  const CostEstimate cost = estimate_of(b.system(), 0.2, 1, 1);
+  EXPECT_GT(cost.boxes.likely, 1e8);
+  EXPECT_LT(cost.boxes.likely, 1e11);
+  EXPECT_LT(cost.trial_seconds, 60) << "it is no search";
+}
+
 // The estimator is unbiased: however few boxes stand for a level, the mean of many trials is the size of the tree.
 TEST(Estimate, OfAFewBoxesALevelIsTheTreeOnTheAverage) {
   const auto real = static_cast<double>(solve_with(torus().system(), 0.5).statistics.processed);
