@@ -2,6 +2,8 @@
 
 #include <flint/fmpq_mpoly_factor.h>
 
+#include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "corank/core/check.h"
@@ -74,6 +76,12 @@ RationalPolynomial::~RationalPolynomial() { fmpq_mpoly_clear(value_, ring_.conte
 bool RationalPolynomial::is_number() const { return fmpq_mpoly_is_fmpq(value_, ring_.context()) != 0; }
 std::size_t RationalPolynomial::size() const { return fmpq_mpoly_length(value_, ring_.context()); }
 
+std::size_t RationalPolynomial::unknowns() const {
+  std::vector<int> used(ring_.unknowns());
+  fmpq_mpoly_used_vars(used.data(), value_, ring_.context());
+  return std::count(used.begin(), used.end(), 1);
+}
+
 std::vector<RationalPolynomial::Term> RationalPolynomial::terms() const {
   std::vector<Term> result(size());
   std::vector<ulong> powers(ring_.unknowns());
@@ -90,6 +98,26 @@ RationalPolynomial RationalPolynomial::power(std::uint64_t exponent) const {
   RationalPolynomial result(ring_);
   CORANK_CHECK(fmpq_mpoly_pow_ui(result.value_, value_, exponent, ring_.context()) != 0);
   return result;
+}
+
+RationalPolynomial RationalPolynomial::with(std::size_t unknown, std::uint64_t step, const RationalPolynomial& value) const {
+  std::map<ulong, RationalPolynomial> parts;  // by the value's power
+  std::vector<ulong> powers(ring_.unknowns());
+  Rational coefficient;
+  for (std::size_t k = 0; k < size(); ++k) {
+    fmpq_mpoly_get_term_coeff_fmpq(coefficient.q, value_, k, ring_.context());
+    fmpq_mpoly_get_term_exp_ui(powers.data(), value_, k, ring_.context());
+    RationalPolynomial& part = parts.try_emplace(powers[unknown] / step, ring_).first->second;
+    powers[unknown] %= step;
+    fmpq_mpoly_push_term_fmpq_ui(part.value_, coefficient.q, powers.data(), ring_.context());
+  }
+  RationalPolynomial sum(ring_);
+  for (auto& [power, part] : parts) {
+    fmpq_mpoly_sort_terms(part.value_, ring_.context());
+    fmpq_mpoly_combine_like_terms(part.value_, ring_.context());
+    sum = sum + part * value.power(power);
+  }
+  return sum;
 }
 
 RationalPolynomial RationalPolynomial::over(const RationalPolynomial& number) const {

@@ -46,7 +46,10 @@ class RationalPolynomial {
   bool is_number() const;
   std::size_t size() const;  ///< terms
   std::vector<Term> terms() const;
+  std::size_t unknowns() const;  ///< how many occur in it
   RationalPolynomial power(std::uint64_t exponent) const;
+  /// With x^step replaced by a value throughout, x^(k·step + r) by value^k·x^r.
+  RationalPolynomial with(std::size_t unknown, std::uint64_t step, const RationalPolynomial& value) const;
   RationalPolynomial over(const RationalPolynomial& number) const;  ///< divided by a number other than 0
   /// The irreducible factors over the rationals that are no numbers, each once. Nothing where they are not found within 10 s
   /// of processor time, or before `ended` says so.

@@ -272,12 +272,7 @@ RationalPolynomial ExactMatrix::determinant(const SquareBlock& block) const {
 RationalPolynomial ExactMatrix::without_squares(const RationalPolynomial& f, std::size_t gone, std::size_t kept) const {
   const PolynomialRing& ring = unknowns_->ring();
   const RationalPolynomial square = RationalPolynomial::number(ring, "1") - RationalPolynomial::unknown(ring, kept).power(2);
-  RationalPolynomial sum(ring);
-  for (RationalPolynomial::Term term : f.terms()) {
-    const std::uint64_t power = std::exchange(term.powers[gone], term.powers[gone] % 2);
-    sum = sum + RationalPolynomial::term(ring, term) * square.power(power / 2);
-  }
-  return sum;
+  return f.with(gone, 2, square);
 }
 
 RationalPolynomial ExactMatrix::modulo_circles(const RationalPolynomial& f) const {
@@ -291,23 +286,17 @@ RationalPolynomial ExactMatrix::modulo_circles(const RationalPolynomial& f) cons
 }
 
 RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f) const {
-  constexpr std::size_t kMostOnTheWay = 5000;
+  constexpr std::size_t kMostOnTheWay = 200'000;
   RationalPolynomial result = f;
   for (std::size_t i = explicit_.size(); i-- > 0;) {
     const auto& [unknown, value] = explicit_[i];
-    const auto terms = result.terms();
-    if (std::none_of(terms.begin(), terms.end(), [&](const auto& term) { return term.powers[unknown] > 0; })) continue;
-    RationalPolynomial sum(unknowns_->ring());
-    for (RationalPolynomial::Term term : terms) {
-      const std::uint64_t power = std::exchange(term.powers[unknown], 0);
-      sum = sum + RationalPolynomial::term(unknowns_->ring(), term) * value.power(power);
-      if (sum.size() > kMostOnTheWay) return f;
-    }
-    for (const auto& [cosine, sine] : unknowns_->circles()) sum = without_squares(sum, sine, cosine);
-    result = std::move(sum);
+    result = result.with(unknown, 1, value);
+    for (const auto& [cosine, sine] : unknowns_->circles()) result = without_squares(result, sine, cosine);
+    if (result.size() > kMostOnTheWay) return f;
   }
   result = modulo_circles(result);
-  return result.size() <= f.size() ? result : f;
+  const bool in_fewer = result.size() <= 2 * f.size() && result.unknowns() < f.unknowns();
+  return result.size() <= f.size() || in_fewer ? result : f;
 }
 
 Expression ExactMatrix::entry(std::size_t row, std::size_t column) const { return expression(rows_[row][column]); }

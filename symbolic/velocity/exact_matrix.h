@@ -59,7 +59,8 @@ class ExactMatrix {
   RationalPolynomial modulo_circles(const RationalPolynomial& f) const;
 
   /// The same at every configuration: coordinates that an equation of Φ gives explicitly, as a polynomial in coordinates
-  /// that occur before, are replaced by it, and even powers of sines by cosines. f itself where that is longer.
+  /// that occur before, are replaced by it, and even powers of sines by cosines. f itself where that is longer, unless it is
+  /// in fewer unknowns and at most twice as long.
   RationalPolynomial in_free_coordinates(const RationalPolynomial& f) const;
 
   /// Does every equation of Φ give a coordinate so?

@@ -32,7 +32,9 @@ TEST(Options, ThatAreDefaultsMakeSense) {
 }
 
 TEST(Options, AreRefusedByTheirName) {
-  for (const double bad : {kNan, kInf, -kInf, 0.0, -1.0}) {
+  EXPECT_EQ(refused([&](Options& o) { o.sigma = o.sigma_length = o.sigma_angle = kWhole; }), "");
+  EXPECT_EQ(refused([&](Options& o) { o.coarser = kInf; }), "coarser");
+  for (const double bad : {kNan, -kInf, 0.0, -1.0}) {
     EXPECT_EQ(refused([&](Options& o) { o.sigma = bad; }), "sigma") << bad;
     EXPECT_EQ(refused([&](Options& o) { o.sigma_length = bad; }), "sigma_length") << bad;
     EXPECT_EQ(refused([&](Options& o) { o.sigma_angle = bad; }), "sigma_angle") << bad;

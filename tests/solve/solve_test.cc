@@ -300,7 +300,7 @@ TEST(Solve, EndsWhereThePivotOfASheetIsTiny) {
 }
 
 TEST(Solve, RefusesANonsensicalSigma) {
-  for (double sigma : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-20})
+  for (double sigma : {0.0, -1.0, std::nan(""), -HUGE_VAL, 1e-20})
     EXPECT_THROW(solve_with(circle_and_diagonal().system(), sigma), std::invalid_argument) << sigma;
 }
 
