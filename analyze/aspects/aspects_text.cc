@@ -15,10 +15,12 @@
 namespace corank::analyze {
 namespace {
 
-std::vector<CoordinateValue> values(const System& system, const Box& box) {
+// With or without those that are defined by the others, and of no interest, such as vectors of a robot's links.
+std::vector<CoordinateValue> values(const System& system, const Box& box, bool auxiliary = true) {
   std::vector<CoordinateValue> result;
   for (std::size_t j = 0; j < system.variables.size(); ++j)
-    if (system.variables[j].kind == VariableKind::length) result.push_back({system.variables[j].name, box[j]});
+    if (const Variable& v = system.variables[j]; v.kind == VariableKind::length && (auxiliary || !v.auxiliary))
+      result.push_back({v.name, box[j]});
   for (const Angle& a : system.angles)
     result.push_back({a.name, certify::angle_enclosure(box[a.cosine], box[a.sine], a.range)});
   return result;
@@ -122,7 +124,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   const std::size_t known = a.aspects.representatives.size();
   for (std::size_t k = 0; k < std::min(known, kMostShown); ++k) {
     text += fmt::format("  {:>3}", k + 1);
-    for (const CoordinateValue& v : values(a.system, a.aspects.representatives[k]))
+    for (const CoordinateValue& v : values(a.system, a.aspects.representatives[k], false))
       text += fmt::format("  {} {:.4f}", v.name, v.value.mid());
     text += area_words(a, k) + "\n";
   }

@@ -2,7 +2,6 @@
 
 #include <flint/fmpq_mpoly_factor.h>
 
-#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -76,10 +75,14 @@ RationalPolynomial::~RationalPolynomial() { fmpq_mpoly_clear(value_, ring_.conte
 bool RationalPolynomial::is_number() const { return fmpq_mpoly_is_fmpq(value_, ring_.context()) != 0; }
 std::size_t RationalPolynomial::size() const { return fmpq_mpoly_length(value_, ring_.context()); }
 
+bool RationalPolynomial::mentions(std::size_t unknown) const {
+  return fmpq_mpoly_degree_si(value_, static_cast<slong>(unknown), ring_.context()) > 0;
+}
+
 std::size_t RationalPolynomial::unknowns() const {
-  std::vector<int> used(ring_.unknowns());
-  fmpq_mpoly_used_vars(used.data(), value_, ring_.context());
-  return std::count(used.begin(), used.end(), 1);
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < ring_.unknowns(); ++k) count += mentions(k);
+  return count;
 }
 
 std::vector<RationalPolynomial::Term> RationalPolynomial::terms() const {

@@ -46,6 +46,7 @@ class RationalPolynomial {
   bool is_number() const;
   std::size_t size() const;  ///< terms
   std::vector<Term> terms() const;
+  bool mentions(std::size_t unknown) const;
   std::size_t unknowns() const;  ///< how many occur in it
   RationalPolynomial power(std::uint64_t exponent) const;
   /// With x^step replaced by a value throughout, x^(k·step + r) by value^k·x^r.

@@ -7,7 +7,7 @@
 namespace corank::symbolic {
 
 std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended) {
-  ExactMatrix m(mechanism, matrix);
+  ExactMatrix m(mechanism, matrix, residuals(mechanism));
   m.eliminate_numbers();
   const auto vanishing = [&]() -> ModelError {
     return {{mechanism.name(), 0, 0},
@@ -20,8 +20,12 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
   for (const SquareBlock& block : *blocks) {
     const RationalPolynomial value = m.determinant(block);
     if (value.is_zero()) throw vanishing();
-    for (RationalPolynomial& factor : value.factors(ended).value_or(std::vector{value}))
-      if (std::find(factors.begin(), factors.end(), factor) == factors.end()) factors.push_back(std::move(factor));
+    for (const RationalPolynomial& factor : value.factors(ended).value_or(std::vector{value})) {
+      const RationalPolynomial on_cspace = m.is_explicit() ? m.in_free_coordinates(factor) : factor;
+      if (on_cspace.is_zero()) throw vanishing();
+      for (RationalPolynomial& f : on_cspace.factors(ended).value_or(std::vector{on_cspace}))
+        if (std::find(factors.begin(), factors.end(), f) == factors.end()) factors.push_back(std::move(f));
+    }
   }
   std::vector<Expression> result;
   for (const RationalPolynomial& factor : factors)

@@ -290,6 +290,7 @@ RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f)
   RationalPolynomial result = f;
   for (std::size_t i = explicit_.size(); i-- > 0;) {
     const auto& [unknown, value] = explicit_[i];
+    if (!result.mentions(unknown)) continue;
     result = result.with(unknown, 1, value);
     for (const auto& [cosine, sine] : unknowns_->circles()) result = without_squares(result, sine, cosine);
     if (result.size() > kMostOnTheWay) return f;
