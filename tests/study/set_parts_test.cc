@@ -217,8 +217,8 @@ TEST(SetPartsOf, ArmsAreConditionsOnTheirJoints) {
   EXPECT_THAT(names_of(parts_of(arm)), ElementsAre(testing::StartsWith("condition on ")));
 }
 
-// Six revolute joints by rows of Denavit and Hartenberg, their axes parallel or perpendicular to the next; and the determinant
-// of the Jacobian by the textbook: columns (z × (p − o), z).
+// Six revolute joints by rows of Denavit and Hartenberg, their axes parallel or perpendicular to the next; and the
+// determinant of the Jacobian by the textbook: columns (z × (p − o), z).
 struct RandomArm {
   struct Row {
     double a, d;
