@@ -60,7 +60,8 @@ struct DomainNotes {
     std::size_t boxes = 0;  ///< `boundary` boxes that are not shown to be inside of it
   };
   std::vector<int> found;  ///< variables without a declared range: their domain was found from the equations
-  std::vector<End> ends;   ///< declared ranges of lengths and limited angles beyond which the set may go on
+  /// Declared ranges of lengths and limited angles beyond which the set may go on; of auxiliary ones, where it does.
+  std::vector<End> ends;
   std::vector<Reason> boundary;
 };
 

@@ -255,7 +255,8 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
   };
   for (const symbolic::Coordinate& c : mechanism.coordinates())
     if (const auto end = ends.find(c.name); end != ends.end() && c.has_range && !is_limited(c.name))
-      result.domain.ends.push_back({c.name, end->second});
+      if (end->second || !c.auxiliary)  // as of a vector of a link, which never reaches the ends of the range that it has
+        result.domain.ends.push_back({c.name, end->second});
   for (const auto& [reason, boxes] : reasons) result.domain.boundary.push_back({reason, boxes});
   if (others > 0) result.domain.boundary.push_back({"rounding", others});
   std::stable_sort(result.domain.boundary.begin(), result.domain.boundary.end(),

@@ -83,14 +83,19 @@ TEST(SetPartsOnTheCommandLine, AreDerivedOneByOne) {
 
 TEST(SetPartsOnTheCommandLine, AreSaidOnTheReportsPage) {
   const TemporaryFolder folder;
-  const Outcome report =
-      run_corank({"report", model("planar/3prr"), "--sets", "inverse", "--sigma", "0.3", "-o", folder.file("page")});
-  ASSERT_EQ(report.status, 0) << report.err;
-  std::ifstream file(folder.file("page") + "/index.html");
-  std::stringstream page;
-  page << file.rdbuf();
-  EXPECT_THAT(page.str(), HasSubstr("The set is the union of 3 parts: "));
-  EXPECT_THAT(page.str(), HasSubstr("<summary>Inverse singularities: the union of 3 parts</summary>"));
+  const auto page_of = [&](const std::string& name, const std::string& sigma) {
+    const Outcome report =
+        run_corank({"report", model(name), "--sets", "inverse", "--sigma", sigma, "-o", folder.file("page")});
+    EXPECT_EQ(report.status, 0) << report.err;
+    std::ifstream file(folder.file("page") + "/index.html");
+    std::stringstream page;
+    page << file.rdbuf();
+    return page.str();
+  };
+  const std::string platform = page_of("planar/3prr", "0.3");
+  EXPECT_THAT(platform, HasSubstr("The set is the union of 3 parts: "));
+  EXPECT_THAT(platform, HasSubstr("<summary>Inverse singularities: the union of 3 parts</summary>"));
+  EXPECT_THAT(page_of("serial/ur5", "0.5"), HasSubstr("boxes, for every theta2 and theta5); sin(theta5) = 0 ("));
 }
 
 }  // namespace
