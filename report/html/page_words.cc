@@ -124,8 +124,7 @@ void say_passages(const result::Result& result, SetWords& words) {
 void say_parts(const result::Result& result, SetWords& words) {
   if (result.parts.size() < 2 || !result.outputs.empty()) return;
   const auto part = [](const result::Result& r) {
-    const std::string always = r.free_coordinates.empty() ? "" : ", for every " + result::listed(r.free_coordinates);
-    return fmt::format("{} ({}{})", r.part, boxes_text(r.cover.boxes.size()), always);
+    return fmt::format("{} ({}{})", r.part, boxes_text(r.cover.boxes.size()), result::free_text(r));
   };
   words.proven.push_back(
       fmt::format("The set is the union of {} parts: {}.", result.parts.size(), joined(result.parts, part, "; ")));

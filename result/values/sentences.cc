@@ -10,6 +10,7 @@
 #include "corank/certify/contact.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/exact_number.h"
+#include "corank/core/rounding.h"
 #include "corank/result/values/tallies.h"
 #include "corank/result/values/words.h"
 #include "corank/symbolic/model/model_error.h"
@@ -184,22 +185,17 @@ std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, 
     const auto c = std::ranges::find(list, system.variables[v].name, &symbolic::Coordinate::name);
     return c != list.end() && c->kind == symbolic::CoordinateKind::length && (!c->has_range || (from_parts && c->auxiliary));
   };
+  const UpwardRounding rounding;
+  const std::vector<Polynomial>& equations = system.equations;
   std::vector<std::vector<int>> rows;
-  std::vector<const Polynomial*> equations;
-  for (const Polynomial& f : system.equations) rows.push_back(certify::variables_of(f)), equations.push_back(&f);
+  for (const auto* list : {&equations, &system.inequalities})
+    for (const Polynomial& f : *list) rows.push_back(certify::variables_of(f));
   std::vector<int> uses(system.variables.size(), 0);
-  for (const Polynomial& g : system.inequalities) rows.push_back(certify::variables_of(g));
   for (const std::vector<int>& row : rows)
     for (const int v : row) ++uses[v];
-  const auto is_linear_in = [](const Polynomial& f, int v) {
-    return std::ranges::all_of(f.monomials, [v](const Monomial& m) {
-      const bool mentions = std::ranges::find(m.factors, v, &Factor::variable) != m.factors.end();
-      return !mentions || (m.degree() == 1 && !m.is_trigonometric());
-    });
-  };
   for (bool any = true; std::exchange(any, false);)
     for (std::size_t i = 0; i < equations.size(); ++i) {
-      const auto says = [&](int v) { return uses[v] == 1 && is_value(v) && is_linear_in(*equations[i], v); };
+      const auto says = [&](int v) { return uses[v] == 1 && is_value(v) && certify::solved_for(equations[i], v); };
       if (std::ranges::none_of(rows[i], says)) continue;
       for (const int v : std::exchange(rows[i], {})) --uses[v];
       any = true;
@@ -225,6 +221,10 @@ std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, 
     if (alone && left == own.size() - 1) result.push_back(c.name);
   }
   return result;
+}
+
+std::string free_text(const Result& result) {
+  return result.free_coordinates.empty() ? "" : ", for every " + listed(result.free_coordinates);
 }
 
 void describe_domain(const symbolic::Mechanism& mechanism, const System& system, Result& result) {
@@ -253,10 +253,12 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
     return std::any_of(mechanism.limits().begin(), mechanism.limits().end(),
                        [&](const symbolic::Limit& limit) { return limit.coordinate == name; });
   };
-  for (const symbolic::Coordinate& c : mechanism.coordinates())
-    if (const auto end = ends.find(c.name); end != ends.end() && c.has_range && !is_limited(c.name))
-      if (end->second || !c.auxiliary)  // as of a vector of a link, which never reaches the ends of the range that it has
-        result.domain.ends.push_back({c.name, end->second});
+  for (const symbolic::Coordinate& c : mechanism.coordinates()) {
+    const auto end = ends.find(c.name);
+    if (end == ends.end() || !c.has_range || is_limited(c.name)) continue;
+    if (c.auxiliary && !end->second) continue;  // as a link's vector: the ends of its range are out of its reach
+    result.domain.ends.push_back({c.name, end->second});
+  }
   for (const auto& [reason, boxes] : reasons) result.domain.boundary.push_back({reason, boxes});
   if (others > 0) result.domain.boundary.push_back({"rounding", others});
   std::stable_sort(result.domain.boundary.begin(), result.domain.boundary.end(),

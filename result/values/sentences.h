@@ -29,12 +29,14 @@ std::vector<std::string> assembly_sentences(const Result& result);
 /// turns. It says what follows exactly from the relations and those of the system's equations that they make linear;
 /// "freely" where no other equation is about the coordinate but its circle, and the kernel's.
 void describe_in_words(const symbolic::Mechanism& mechanism, const System& system, Result& result);
-/// Result::free_coordinates. An equation a·x + g = 0 with a number a ≠ 0 and an x without a declared range, in no other
+/// Result::free_coordinates. An equation a·x + g = 0 with a rational a ≠ 0 and an x without a declared range, in no other
 /// equation and no inequality, says what x is and nothing of the others. Without such equations, taken away in turns, a
 /// coordinate is free where nothing mentions it, or its sine and cosine, but an angle's circle and its range. Of a robot
 /// from parts the auxiliary coordinates, vectors of links, have no declared range.
 std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, const System& system, bool from_parts);
-/// The part of it that is about ranges.
+/// ", for every theta2 and theta3"; nothing where none is free.
+std::string free_text(const Result& result);
+/// The part of describe_in_words() that is about ranges.
 void describe_domain(const symbolic::Mechanism& mechanism, const System& system, Result& result);
 /// "reaches the ends of x, y: not searched beyond", "may reach the end of theta: not searched beyond"; none, one or both.
 std::vector<std::string> range_end_sentences(const DomainNotes& notes);

@@ -176,7 +176,7 @@ std::string parts_text(const Result& result) {
     if (boxes > 0)
       text += fmt::format("  {:<{}}  {:>8}{}{}{}\n", part.part, width, counted(boxes, "box"),
                           open > 0 ? fmt::format(", {} undecided", open) : "", part.cover.complete() ? "" : ", INCOMPLETE",
-                          part.free_coordinates.empty() ? "" : ", for every " + listed(part.free_coordinates));
+                          free_text(part));
   }
   return text + (empty > 0 ? fmt::format("  {} without a solution\n", counted(empty, "part")) : "");
 }

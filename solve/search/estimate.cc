@@ -8,7 +8,6 @@
 #include <random>
 #include <utility>
 
-#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/core/threads.h"
 #include "corank/solve/cutting/cut_planner.h"
@@ -178,14 +177,15 @@ class Estimator {
     return product;
   }
 
-  // By which σ is to be multiplied, so that no sheet makes too many pieces. The largest ones come first.
+  // By which σ is to be multiplied, so that none of the largest sheets makes too many pieces; problem_ has that σ then.
   double coarser_for(const Sigma& sigma) {
-    const auto by_size = [](const Weighed& a, const Weighed& b) { return a.pieces > b.pieces; };
-    const std::size_t first = std::min(kLargestSheets, sheets_.size());
-    std::ranges::partial_sort(sheets_, sheets_.begin() + static_cast<std::ptrdiff_t>(first), by_size);
+    std::vector<const Weighed*> largest;
+    for (const Weighed& sheet : sheets_) largest.push_back(&sheet);
+    std::ranges::sort(largest, std::greater<>(), &Weighed::pieces);
+    largest.resize(std::min(kLargestSheets, largest.size()));
     double coarser = 1;
-    const auto makes_too_many = [&](const Weighed& sheet) { return pieces_of(sheet.sheet) > kMostPieces; };
-    while (std::any_of(sheets_.begin(), sheets_.begin() + static_cast<std::ptrdiff_t>(first), makes_too_many)) {
+    const auto makes_too_many = [&](const Weighed* sheet) { return pieces_of(sheet->sheet) > kMostPieces; };
+    while (!control_.ended() && std::ranges::any_of(largest, makes_too_many)) {
       coarser *= 1.5;
       problem_.set_sigma({sigma.length * coarser, sigma.angle * coarser});
     }
@@ -204,13 +204,13 @@ class Estimator {
     }
     double whole_size = 0;
     for (Weighed& sheet : sheets_) {
+      if (control_.ended()) break;
       sheet.pieces = pieces_of(sheet.sheet);
       whole_size += sheet.weight * sheet.pieces;
     }
     const double coarser = coarser_for(e.sigma);
     Shard shard(1, false);
     BoxProcessor processor(problem_, shard);
-    std::ranges::shuffle(sheets_, random_);
     const double begun = cpu_seconds();
     double size = 0, pieces = 0, spent = 0, squares = 0;
     std::size_t cut = 0;

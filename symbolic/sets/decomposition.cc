@@ -212,7 +212,7 @@ class Decomposer {
       const auto factors = value.factors(ended_);
       if (!factors) return Factors{.fail = true};
       for (const RationalPolynomial& factor : *factors) {
-        const RationalPolynomial on_cspace = matrix_.in_free_coordinates(matrix_.modulo_circles(factor));
+        const RationalPolynomial on_cspace = matrix_.in_free_coordinates(matrix_.modulo_circles(factor), ended_);
         if (on_cspace.is_zero()) return Factors{.fail = true};
         const auto simple = on_cspace.factors(ended_);
         if (!simple) return Factors{.fail = true};

@@ -21,7 +21,7 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
     const RationalPolynomial value = m.determinant(block);
     if (value.is_zero()) throw vanishing();
     for (const RationalPolynomial& factor : value.factors(ended).value_or(std::vector{value})) {
-      const RationalPolynomial on_cspace = m.is_explicit() ? m.in_free_coordinates(factor) : factor;
+      const RationalPolynomial on_cspace = m.is_explicit() ? m.in_free_coordinates(factor, ended) : factor;
       if (on_cspace.is_zero()) throw vanishing();
       for (RationalPolynomial& f : on_cspace.factors(ended).value_or(std::vector{on_cspace}))
         if (std::find(factors.begin(), factors.end(), f) == factors.end()) factors.push_back(std::move(f));

@@ -285,7 +285,7 @@ RationalPolynomial ExactMatrix::modulo_circles(const RationalPolynomial& f) cons
   return shortest;
 }
 
-RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f) const {
+RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f, const Ended& ended) const {
   constexpr std::size_t kMostOnTheWay = 200'000;
   RationalPolynomial result = f;
   for (std::size_t i = explicit_.size(); i-- > 0;) {
@@ -293,7 +293,7 @@ RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f)
     if (!result.mentions(unknown)) continue;
     result = result.with(unknown, 1, value);
     for (const auto& [cosine, sine] : unknowns_->circles()) result = without_squares(result, sine, cosine);
-    if (result.size() > kMostOnTheWay) return f;
+    if (result.size() > kMostOnTheWay || is_over(ended)) return f;
   }
   result = modulo_circles(result);
   const bool in_fewer = result.size() <= 2 * f.size() && result.unknowns() < f.unknowns();

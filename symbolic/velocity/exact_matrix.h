@@ -60,8 +60,8 @@ class ExactMatrix {
 
   /// The same at every configuration: coordinates that an equation of Φ gives explicitly, as a polynomial in coordinates
   /// that occur before, are replaced by it, and even powers of sines by cosines. f itself where that is longer, unless it is
-  /// in fewer unknowns and at most twice as long.
-  RationalPolynomial in_free_coordinates(const RationalPolynomial& f) const;
+  /// in fewer unknowns and at most twice as long, or once `ended` says so.
+  RationalPolynomial in_free_coordinates(const RationalPolynomial& f, const Ended& ended = {}) const;
 
   /// Does every equation of Φ give a coordinate so?
   bool is_explicit() const { return explicit_.size() == equations_; }

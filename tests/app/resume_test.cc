@@ -156,10 +156,10 @@ TEST(Refine, CutsTheSheetsAsASearchWithThatSigmaDoes) {
 TEST(Refine, CutsSheetsThatAreWhole) {
   const TemporaryFolder folder;
   const std::string whole = folder.file("whole.h5"), fine = folder.file("fine.h5"), anew = folder.file("anew.h5");
-  for (const auto& [file, set] : {std::pair("dextar", "cspace"), {"serial/puma_560", "inverse"}}) {
-    SCOPED_TRACE(file);
-    const Words solve{"solve", model(file), "--set", set, "-D", "lo3=-1", "-D", "up3=0"};
-    const Words question = file == std::string("dextar") ? Words(solve.begin(), solve.begin() + 4) : solve;
+  const Words plane{"solve", model("dextar"), "--set", "cspace"};
+  const Words arm{"solve", model("serial/puma_560"), "--set", "inverse", "-D", "lo3=-1", "-D", "up3=0"};
+  for (const Words& question : {plane, arm}) {
+    SCOPED_TRACE(question[1]);
     const Outcome first = run_corank(with(question, {"--sigma", "inf", "--keep-sheets", "-o", whole, "--json"}));
     ASSERT_EQ(first.status, 0) << first.err;
     EXPECT_TRUE(nlohmann::json::parse(first.out)["options"]["sigma"].is_null());
@@ -169,8 +169,9 @@ TEST(Refine, CutsSheetsThatAreWhole) {
     const result::Result sheets = result::read_result(whole), boxes = result::read_result(fine);
     EXPECT_EQ(sheets.cover.wider_than_sigma, 0u);
     EXPECT_LT(2 * sheets.cover.boxes.size(), boxes.cover.boxes.size());
-    if (set != std::string("cspace")) continue;
-    EXPECT_EQ(run_corank({"verify", whole}).status, 4) << "every claim, but no proof of completeness";
+    if (question == plane) {
+      EXPECT_EQ(run_corank({"verify", whole}).status, 4) << "every claim, but no proof of completeness";
+    }
   }
 }
 

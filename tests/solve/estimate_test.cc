@@ -36,7 +36,7 @@ TEST(Estimate, OfAWholeTreeIsItsSize) {
   EXPECT_EQ(cost.processed.low, cost.processed.high);
 }
 
-// Four free values, 1 to a side, and y = 1000 (a + b + c + d): it takes 40,000 cells along y, and about 40 along each of
+// Four free values, 2 to a side, and y = 1000 (a + b + c + d): it takes 40,000 cells along y, and about 40 along each of
 // three others.
 TEST(Estimate, CutsNoSheetInFullWhoseImagesAreFiner) {
   SystemBuilder b;
