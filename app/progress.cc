@@ -9,7 +9,7 @@
 namespace corank::app {
 namespace {
 
-constexpr auto kInterval = std::chrono::milliseconds(100);
+constexpr auto kRefreshInterval = std::chrono::milliseconds(100);
 
 std::size_t terminal_width() {
   winsize size{};
@@ -30,7 +30,7 @@ void ProgressLine::show(const solve::Control::Progress& progress) {
   const auto now = std::chrono::steady_clock::now();
   if (!visible_ || (progress.stage == stage_ && now < next_)) return;
   stage_ = progress.stage;
-  next_ = now + kInterval;
+  next_ = now + kRefreshInterval;
   std::string line = (task_.empty() ? "" : task_ + ": ") + to_string(progress.stage);
   if (progress.all > 0) line += fmt::format(": {} of {}", progress.done, progress.all);
   show(line);

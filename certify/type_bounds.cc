@@ -10,9 +10,9 @@ namespace corank::certify {
 namespace {
 
 // Each rank is in lo … hi.
-class Range {
+class RankRange {
  public:
-  Range(const VelocityBlocks& blocks, const RankBounds& lo, const RankBounds& hi) : blocks_(blocks), lo_(lo), hi_(hi) {
+  RankRange(const VelocityBlocks& blocks, const RankBounds& lo, const RankBounds& hi) : blocks_(blocks), lo_(lo), hi_(hi) {
     narrow();
   }
 
@@ -76,7 +76,7 @@ TypeBounds::TypeBounds(const System& system, const VelocityBlocks& blocks) : sys
 RankBounds TypeBounds::ranks(const Box& box, int halvings, const RankBounds& known, TypeSet wanted) const {
   using enum Block;
   CORANK_CHECK(UpwardRounding::active());
-  Range range(blocks_, known, blocks_.at_most);
+  RankRange range(blocks_, known, blocks_.at_most);
   const auto raise = [&](Block block) {
     const auto& bound = bounds_[index(block)];
     if (bound && range.lo(block) < range.hi(block))
@@ -94,7 +94,7 @@ RankBounds TypeBounds::ranks(const Box& box, int halvings, const RankBounds& kno
   return range.lower();
 }
 
-TypeLabels TypeBounds::labels(const RankBounds& ranks) const { return Range(blocks_, ranks, blocks_.at_most).labels(); }
+TypeLabels TypeBounds::labels(const RankBounds& ranks) const { return RankRange(blocks_, ranks, blocks_.at_most).labels(); }
 
 TypeLabels TypeBounds::at(const ExactPoint& point, const Ended& ended) const {
   RankBounds ranks{};
@@ -104,7 +104,7 @@ TypeLabels TypeBounds::at(const ExactPoint& point, const Ended& ended) const {
     if (!rank) return {};
     ranks[b] = *rank;
   }
-  return Range(blocks_, ranks, ranks).labels();
+  return RankRange(blocks_, ranks, ranks).labels();
 }
 
 }  // namespace corank::certify

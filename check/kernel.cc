@@ -33,7 +33,7 @@ std::vector<std::vector<double>> balanced(std::vector<std::vector<double>> a, st
   return a;
 }
 
-constexpr int kMostParts = 2000;
+constexpr int kMostKernelParts = 2000;
 
 }  // namespace
 
@@ -104,7 +104,7 @@ bool KernelCheck::has_rank(std::size_t s, const Sides& x) const {
 bool KernelCheck::is_at_most(int most, const Box& box) const {
   if (most >= columns_) return true;
   const std::size_t rank = columns_ - std::max(most, 0);
-  return shown_in_parts(Sides(box.begin(), box.end()), arguments_, lengths_, kMostParts, stop_,
+  return shown_in_parts(Sides(box.begin(), box.end()), arguments_, lengths_, kMostKernelParts, stop_,
                         [&](const Sides& x) { return has_rank(rank, x); });
 }
 

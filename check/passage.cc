@@ -7,7 +7,7 @@
 
 namespace corank::check {
 namespace {
-constexpr int kMostParts = 500;
+constexpr int kMostPassageParts = 500;
 }  // namespace
 
 PassageCheck::PassageCheck(const System& system, const StopFlag& stop) : stop_(stop), lengths_(domain_lengths(system)) {
@@ -81,7 +81,7 @@ std::string PassageCheck::fault(const CoverBox& box) const {
   double length = 0;
   for (const double d : box.side) length = std::hypot(length, d);
   if (box.side.size() != normal_.size() || !(std::fabs(length - 1) < 1e-9)) return "its side is not a unit vector";
-  const bool shown = shown_in_parts(Sides(box.box.begin(), box.box.end()), arguments_, lengths_, kMostParts, stop_,
+  const bool shown = shown_in_parts(Sides(box.box.begin(), box.box.end()), arguments_, lengths_, kMostPassageParts, stop_,
                                     [&](Sides& x) { return holds(box, x) || !contract(x) || holds(box, x); });
   if (shown) return "";
   return std::string("it is not shown that the output finds a ") +

@@ -44,23 +44,22 @@ function(corank_uses target scope folder)
   endforeach()
 endfunction()
 
-# corank_compile_together(<target> <source>…): where CMAKE_UNITY_BUILD is on, the sources of an inner folder are compiled as one, since most of a
-# source's time goes into what it includes and instantiates; of a folder without inner ones those whose names begin with letters of the same range.
-# What is in an anonymous namespace must then differ between them.
+# corank_compile_together(<target> <source>…): where CMAKE_UNITY_BUILD is on, the sources are compiled as two, since most of a source's time goes into
+# what it includes and instantiates: by the first letter of their inner folder, in a folder without such of their own. What is in an anonymous
+# namespace must then differ between them.
 function(corank_compile_together target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   foreach(source IN LISTS ARGN)
     cmake_path(RELATIVE_PATH source OUTPUT_VARIABLE relative)
     cmake_path(GET relative PARENT_PATH group)
     if(NOT group MATCHES "^[a-z]+$")
-      cmake_path(GET source FILENAME name)
-      string(SUBSTRING ${name} 0 1 letter)
-      foreach(range a-d e-o p-r s-z)
-        if(letter MATCHES "[${range}]")
-          string(REPLACE - _ group ${range})
-          break()
-        endif()
-      endforeach()
+      cmake_path(GET source FILENAME group)
+    endif()
+    string(SUBSTRING ${group} 0 1 letter)
+    if(letter MATCHES "[a-l]")
+      set(group a_l)
+    else()
+      set(group m_z)
     endif()
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()

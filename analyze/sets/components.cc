@@ -76,7 +76,8 @@ Box hull(const std::vector<int>& boxes, const Cover& cover) {
 // The pieces that the regions of regular boxes make.
 class Linker {
  public:
-  Linker(const System& system, const Cover& cover) : system_(system), cover_(cover), compiled_(system), test_(system) {
+  Linker(const System& system, const Cover& cover)
+      : system_(system), cover_(cover), compiled_(system), test_(system), kept_(system.size(), true) {
     for (std::size_t i = 0; i < cover.boxes.size(); ++i)
       if (cover.boxes[i].verdict == Verdict::regular) boxes_of_[cover.boxes[i].region].push_back(static_cast<int>(i));
     for (const auto& [region, boxes] : boxes_of_) {
@@ -87,6 +88,8 @@ class Linker {
       free_.push_back(cover.boxes[boxes.front()].free);
     }
     sets_ = boost::disjoint_sets_with_storage<>(regions_.size());
+    for (const ReductionStep& step : cover.reduction)
+      if (const auto* taken = std::get_if<Elimination>(&step)) kept_[taken->variable] = false;
   }
 
   void link(solve::Control& control) {
@@ -140,12 +143,29 @@ class Linker {
       Box near = hulls_[r];
       for (std::size_t j = 0; j < near.size(); ++j)
         if (!near[j].intersect(hulls_[s][j])) near[j] = Interval::hull(hulls_[r][j], hulls_[s][j]);
+      if (join_over(r, s, near) || join_over(s, r, near)) return;
       if (const auto point = test_.common(*regions_[r], *regions_[s], near)) {
         join(r, s, *point);
       } else {
         bridge(r, s, near);
       }
     });
+  }
+
+  // A point of the first piece over given values of its free variables. Where both regions end where they touch, it has
+  // exactly the value at which they do: who solves for the other variables again, in other arithmetic, finds it in both.
+  // Of variables that the reduction takes away, which are functions of the others, regions say nothing.
+  bool join_over(std::size_t r, std::size_t s, const Box& near) {
+    Box at = *regions_[r];
+    for (std::size_t j = 0; j < at.size(); ++j)
+      if (!kept_[j]) at[j] = Interval(at[j].lo() - compiled_.scales()[j], at[j].hi() + compiled_.scales()[j]);
+    for (const int f : free_[r]) at[f] = Interval(near[f].mid());
+    const std::optional<certify::Sheet> point = test_.sheet_in(at, near);
+    if (!point) return false;
+    for (std::size_t j = 0; j < at.size(); ++j)
+      if (kept_[j] && !(*regions_[s])[j].contains(point->image[j])) return false;
+    join(r, s, *point);
+    return true;
   }
 
   // Where both regions end where they touch, a small piece about that place may meet both.
@@ -190,6 +210,7 @@ class Linker {
   const Cover& cover_;
   certify::CompiledSystem compiled_;
   certify::MeetingTest test_;
+  std::vector<bool> kept_;           // of the variables, which the reduction does not take away
   std::vector<int> region_numbers_;  // in the cover
   std::vector<SheetLink> links_;
   std::vector<SheetBridge> bridges_;

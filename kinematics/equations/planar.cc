@@ -61,7 +61,7 @@ class PlanarRobot : Drafter {
     if (!plane_.turns.contains(group(child.body))) plane_.turns.emplace(group(child.body), child_turn(j, edge.from));
     PlanePoint origin = plane_.place(parent);
     if (keeps_orientation(j.kind)) {
-      origin = plus(origin, way(j), edge.from == 0 ? 1 : -1);
+      origin = shifted(origin, way(j), edge.from == 0 ? 1 : -1);
     } else if (j.kind == JointKind::planar) {
       origin.add(plane_.turns.at(group(parent.body)), {draft_.length(joint(j).name + "_x", {}, where),  //
                                                        draft_.length(joint(j).name + "_y", {}, where)});
@@ -127,14 +127,14 @@ class PlanarRobot : Drafter {
 
   void close(const BodyJoint& j) {
     const Joint& of = joint(j);
-    const PlanePoint gap = plus(plane_.place(j.ends[1]), plane_.place(j.ends[0]), -1);
+    const PlanePoint gap = shifted(plane_.place(j.ends[1]), plane_.place(j.ends[0]), -1);
     switch (j.kind) {
       case JointKind::revolute:
         all_zero(gap, of);
         if (robot_.is_asked_for(j.index)) close_angle(j);
         break;
       case JointKind::prismatic:
-      case JointKind::parallelogram: all_zero(plus(gap, way(j), -1), of); break;
+      case JointKind::parallelogram: all_zero(shifted(gap, way(j), -1), of); break;
       case JointKind::planar: draft_.equation(gap.height, "height", of.where, "the joint '" + of.name + "'"); break;
       case JointKind::distance: {
         const ex length = algebra_.constant(of.length, of.where);
@@ -198,7 +198,7 @@ class PlanarRobot : Drafter {
       const Placement& frame = bodies_.placement[output.relative_to];
       components = transpose(frame.rotation) * (world(point) - frame.translation);
     } else {
-      const PlanePoint way = plus(point, at(output.relative_to, {0, 0, 0}), -1);
+      const PlanePoint way = shifted(point, at(output.relative_to, {0, 0, 0}), -1);
       PlanePoint seen;
       for (const Turn& term : way.terms) seen.add(term * inverse(plane_.turns.at(group(base))), {1, 0});
       seen.height = way.height;

@@ -186,7 +186,7 @@ class SpatialRobot : public Drafter {
     const BodyJoint& j = bodies_.joints[edge.joint];
     const BodyEnd &parent = j.ends[edge.from], &child = j.ends[1 - edge.from];
     if (!part->reached.contains(parent.body) || !part->reached.contains(child.body)) return;
-    const PlanePoint at = plus(part->place(parent), plane_way(*part, j), edge.from == 0 ? 1 : -1);
+    const PlanePoint at = shifted(part->place(parent), plane_way(*part, j), edge.from == 0 ? 1 : -1);
     part->origins[child.body] = part->origin(at, child);
   }
 
@@ -195,7 +195,7 @@ class SpatialRobot : public Drafter {
     if (part == nullptr) return false;
     const BodyJoint& j = bodies_.joints[index];
     const Joint& of = joint(j);
-    const PlanePoint gap = plus(part->place(j.ends[1]), part->place(j.ends[0]), -1);
+    const PlanePoint gap = shifted(part->place(j.ends[1]), part->place(j.ends[0]), -1);
     if (is_rod(j.kind)) {
       const ex length = rods_.length(j), square = gap.squared();
       const auto branches = j.kind == JointKind::distance ? draft_.branches().of_rod(index, gap, *part) : std::nullopt;
@@ -204,7 +204,7 @@ class SpatialRobot : public Drafter {
       return true;
     }
     if (keeps_orientation(j.kind)) way(j);  // which declares its coordinate
-    const PlanePoint open = plus(gap, plane_way(*part, j), -1);
+    const PlanePoint open = shifted(gap, plane_way(*part, j), -1);
     const std::string what = "the loop that the joint '" + of.name + "' closes";
     draft_.equation(open.height, "height", of.where, what + " leaves its plane and");
     part->closings[index] = {open.x(), open.y()};

@@ -91,7 +91,7 @@ LoopBranches BranchFinder::branches_of(const Sides& sides, std::size_t number) c
 }
 
 bool BranchFinder::are_equal(const PlanePoint& a, const PlanePoint& b) const {
-  const PlanePoint difference = plus(a, b, -1);
+  const PlanePoint difference = shifted(a, b, -1);
   return std::all_of(difference.terms.begin(), difference.terms.end(), [&](const Turn& term) {
     const ex re = algebra_.clean(term.k.re), im = algebra_.clean(term.k.im);
     return algebra_.is_constant(re) && algebra_.is_constant(im) && algebra_.is_zero(re) && algebra_.is_zero(im);
@@ -99,7 +99,7 @@ bool BranchFinder::are_equal(const PlanePoint& a, const PlanePoint& b) const {
 }
 
 bool BranchFinder::are_opposite_or_equal(const PlanePoint& a, const PlanePoint& b) const {
-  return are_equal(a, b) || are_equal(plus({}, a, -1), b);
+  return are_equal(a, b) || are_equal(shifted({}, a, -1), b);
 }
 
 std::optional<LoopBranches> BranchFinder::of_loop(const PlanePoint& open, const Plane& plane) const {
@@ -108,8 +108,8 @@ std::optional<LoopBranches> BranchFinder::of_loop(const PlanePoint& open, const 
     for (std::size_t i = 0; i < 4; ++i)
       if (const auto& side = parallelograms_[number].ways[i]; side.body) sides[i] = plane.direction(*side.body, side.way);
     if (!std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.has_value(); })) continue;
-    const PlanePoint there = plus(point(*sides[0]), point(*sides[1])), back = plus(point(*sides[2]), point(*sides[3]));
-    if (are_opposite_or_equal(open, plus(there, back, -1))) return branches_of(sides, number);
+    const PlanePoint there = shifted(point(*sides[0]), point(*sides[1])), back = shifted(point(*sides[2]), point(*sides[3]));
+    if (are_opposite_or_equal(open, shifted(there, back, -1))) return branches_of(sides, number);
   }
   return std::nullopt;
 }
@@ -125,7 +125,7 @@ std::optional<LoopBranches> BranchFinder::of_rod(std::size_t rod, const PlanePoi
     }
     if (third == 4 || std::count_if(sides.begin(), sides.end(), [](const auto& s) { return s.has_value(); }) != 3) continue;
     const Sides known = rod_as_third(sides, third);
-    const PlanePoint along = plus(plus(point(*known[0]), point(*known[1])), point(*known[3]), -1);
+    const PlanePoint along = shifted(shifted(point(*known[0]), point(*known[1])), point(*known[3]), -1);
     if (are_opposite_or_equal(gap, along)) return branches_of(known, number);
   }
   return std::nullopt;

@@ -35,7 +35,7 @@ ex PlanePoint::squared() const {
   return sum;
 }
 
-PlanePoint plus(PlanePoint a, const PlanePoint& b, int sign) {
+PlanePoint shifted(PlanePoint a, const PlanePoint& b, int sign) {
   for (const Turn& term : b.terms) a.add({{1, 0}, term.angle}, {sign * term.k.re, sign * term.k.im});
   a.height += sign * b.height;
   return a;

@@ -39,7 +39,7 @@ struct PlanePoint {
   /// x² + y² + height², squares of a cosine and its sine put together.
   ex squared() const;
 };
-PlanePoint plus(PlanePoint a, const PlanePoint& b, int sign = 1);
+PlanePoint shifted(PlanePoint a, const PlanePoint& b, int sign = 1);
 
 /// How bodies lie in a plane.
 struct Plane {
@@ -53,9 +53,9 @@ struct Plane {
   PlanePoint image(std::size_t body, const Vec& v) const;
   /// A direction of a body; nothing where the body does not move in the plane.
   std::optional<Turn> direction(std::size_t body, const Vec& v) const;
-  PlanePoint place(const BodyEnd& end) const { return plus(origins.at(end.body), image(end.body, end.point)); }
+  PlanePoint place(const BodyEnd& end) const { return shifted(origins.at(end.body), image(end.body, end.point)); }
   /// Where a body's frame is whose end is at a point.
-  PlanePoint origin(const PlanePoint& at, const BodyEnd& end) const { return plus(at, image(end.body, end.point), -1); }
+  PlanePoint origin(const PlanePoint& at, const BodyEnd& end) const { return shifted(at, image(end.body, end.point), -1); }
   /// A constant vector of a body, multiplied by `times` and turned.
   PlanePoint way(std::size_t body, const Vec& v, const ex& times, const Turn& by = {}) const;
   /// +1 where turning about the joint's axis is turning about the normal.

@@ -16,8 +16,8 @@
 namespace corank::symbolic {
 namespace {
 
-constexpr std::size_t kMostRows = 3;     // of a block whose determinant is a condition though it is no product
-constexpr std::size_t kMostTerms = 200;  // of a condition: longer ones make wide enclosures
+constexpr std::size_t kMostRows = 3;              // of a block whose determinant is a condition though it is no product
+constexpr std::size_t kMostConditionTerms = 200;  // of a condition: longer ones make wide enclosures
 constexpr std::size_t kLongestName = 60;
 constexpr std::size_t kMostNames = 6;  // of coordinates in a part's name
 
@@ -217,7 +217,7 @@ class Decomposer {
         const auto simple = on_cspace.factors(ended_);
         if (!simple) return Factors{.fail = true};
         for (const RationalPolynomial& f : *simple) {
-          if (f.size() > kMostTerms) return std::nullopt;
+          if (f.size() > kMostConditionTerms) return std::nullopt;
           auto condition = matrix_.condition(f);
           if (condition && !space_.vanishes_nowhere(*condition)) result.conditions.push_back(std::move(*condition));
         }

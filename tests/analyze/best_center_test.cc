@@ -11,6 +11,7 @@
 #include "corank/study/model.h"
 #include "corank/symbolic/model/model_file.h"
 #include "corank/tests/analyze/exact.h"
+#include "corank/tests/seeds.h"
 
 namespace corank::analyze {
 namespace {
@@ -51,6 +52,7 @@ TEST(Clearance, OfRedundantRobotsIsThatOfTheirClosedForms) {
   for (const auto& [file, x, y, truth] : robots) {
     for (int k = 0; k < 4; ++k) {
       const double at_x = 0.3 + place(random) / 128.0, at_y = 0.5 + place(random) / 128.0, distance = truth(at_x, at_y);
+      if (!test::long_run() && k > 0) continue;  // of each robot one
       ASSERT_GT(distance, 0);
       solve::Control control;
       const Clearance c =
@@ -100,7 +102,7 @@ TEST(BestCenter, IsOneThatTheRobotReaches) {
   const Best outside = best_of(dextar, {{"J3x", "-1.7", "-1.5"}, {"J3y", "-0.1", "0.1"}});
   EXPECT_TRUE(outside.unassembled);
   EXPECT_TRUE(outside.center.empty());
-  const Best inside = best_of(dextar, {{"J3x", "0.4", "0.8"}, {"J3y", "0.3", "0.9"}}, 0.02);
+  const Best inside = best_of(dextar, {{"J3x", "0.4", "0.8"}, {"J3y", "0.3", "0.9"}}, 0.05);
   ASSERT_TRUE(inside.complete && inside.upper && inside.center.size() == 2);
   double most = 0;
   for (int i = 0; i <= 100; ++i)

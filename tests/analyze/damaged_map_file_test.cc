@@ -10,6 +10,7 @@
 #include "corank/result/files/hdf5_file.h"
 #include "corank/symbolic/model/model_error.h"
 #include "corank/tests/analyze/map_files.h"
+#include "corank/tests/seeds.h"
 
 namespace corank::analyze {
 namespace {
@@ -87,7 +88,7 @@ TEST(MapFile, ThatIsDamagedAtRandomClaimsNothingFalse) {
   std::map<std::string, int> refused_of, open_of;
   int count = 0, refused = 0, open = 0;
   for (const auto& [good, number] : {std::pair(part_of(cubic(), 20), &roots), {part_of(circles(), 20), &crossings}})
-    for (unsigned seed = 0; seed < 200; ++seed, ++count) {
+    for (unsigned seed = 0; seed < test::seeds(80); ++seed, ++count) {
       MapFile file = good;
       const std::string kind = damage(seed, file);
       SCOPED_TRACE(kind + ", " + std::to_string(seed));

@@ -217,7 +217,7 @@ e := 0
 x : [-3, 3]
 y : [-3, 3]
 [SYSTEM EQS]
-(x^2 + y^2 - c)^2 - y^2 + e = 0;)"),
+x^2 - c - e*y = 0;)"),
                                    .over = {{"c", "1/2", "2"}, {"e", "1/20", "1/10"}},
                                    .answer = MapAnswer::components},
                                   8);

@@ -88,18 +88,29 @@ TEST(PiecesFile, OfKnownAspectsIsVerified) {
   }
 }
 
-// Here 10 aspects have fewer choices of signs: only cells tell them apart.
+// Here 4 assembly modes and 6 working modes have fewer choices of signs: only cells tell them apart.
+TEST(PiecesFile, OfAFiveBarWithSlidersIsVerified) {
+  const PiecesFile file = make_pieces_file("planar/five_bar_sliders", {{"w", "1/2"}});
+  EXPECT_EQ(file.lists[1].at_most, 4);
+  EXPECT_EQ(file.lists[2].at_most, 6);
+  expect_complete(file);
+}
+
+// So have 10 aspects. Verifying takes long.
 TEST(PiecesFile, OfDextarIsVerified) {
+  if (!test::long_run()) GTEST_SKIP() << "takes seconds; CORANK_SEEDS asks for it";
   const PiecesFile file = make_pieces_file("dextar");
   EXPECT_EQ(file.lists[0].at_most, 10);
   expect_complete(file);
 }
 
-// Limits end C-space; loci cross on the border of sheets; a parallel robot's slice; a long single-loop's curve.
+// Loci cross on the border of sheets; a long single-loop's curve; a parallel robot's slice, whose C-space limits end.
 TEST(PiecesFile, OfOtherMechanismsIsVerified) {
-  expect_complete(make_pieces_file("dextar_limits"));
   expect_complete(make_pieces_file("three_slider", {{"L2", "4/5"}}));
   expect_complete(make_pieces_file("planar/four_bar_crank_rocker"));
+  expect_complete(make_pieces_file("planar/3rpr", {{"bx", "3"}, {"lower1", "1/2"}, {"upper1", "1/2"}}));
+  if (!test::long_run()) return;
+  expect_complete(make_pieces_file("dextar_limits"));
   expect_complete(make_pieces_file("planar/3rpr", {{"lower1", "6/5"}, {"upper1", "6/5"}}));
 }
 
@@ -109,7 +120,9 @@ TEST(PiecesFile, OfPlantedPiecesConfirmsTheirNumber) {
   std::mt19937 random(11);
   std::uniform_int_distribution<int> harmonic(1, 4), shift(2, 9);
   const auto text = [](int c) { return std::to_string(c); };
-  for (const auto& [k, m] : {std::pair(1, 0), {1, 1}, {2, 1}}) {
+  std::vector<std::pair<int, int>> lines{{1, 0}, {1, 1}};
+  if (test::long_run()) lines.emplace_back(2, 1);
+  for (const auto& [k, m] : lines) {
     const PiecesFile file = make_pieces_file(symbolic::parse_model(
         "[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx = sin(v + " + text(k) +
             "*w);\ny = sin(v - " + text(m) + "*w);\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
@@ -117,7 +130,7 @@ TEST(PiecesFile, OfPlantedPiecesConfirmsTheirNumber) {
     EXPECT_EQ(file.lists[0].at_most, 4 * (k + m));
     expect_complete(file);
   }
-  for (int trial = 0; trial < 6; ++trial) {
+  for (unsigned trial = 0; trial < test::seeds(4); ++trial) {
     const int n = harmonic(random);
     const PiecesFile file = make_pieces_file(
         symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nu : [-2, 2]\n[SYSTEM EQS]\nu = sin(" + text(n) + "*v + 1/" +

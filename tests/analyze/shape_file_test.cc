@@ -78,11 +78,47 @@ TEST(ShapeFile, OfKnownShapesIsVerified) {
   }
 }
 
+// The C-space of a planar pentagon, a linkage like Dextar's.
+TEST(ShapeFile, OfALinkageIsVerified) {
+  const ShapeFile file = of_text(
+      "[SYSTEM VARS]\nt0 ~ [-pi, pi]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\nt3 ~ [-pi, pi]\n[SYSTEM EQS]\n"
+      "100/100*cos(t0) + 101/100*cos(t1) + 202/100*cos(t2) + 303/100*cos(t3) = 404/100;\n"
+      "100/100*sin(t0) + 101/100*sin(t1) + 202/100*sin(t2) + 303/100*sin(t3) = 0;\n");
+  const check::ShapeReport report = result::verify(file);
+  EXPECT_TRUE(report.complete()) << result::to_table(report, file);
+  EXPECT_EQ(file.shape.genus, std::vector<int>{2});
+}
+
 TEST(ShapeFile, OfDextarIsVerified) {
+  if (!test::long_run()) GTEST_SKIP() << "takes seconds; CORANK_SEEDS asks for it";
   const ShapeFile file = make_file(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism);
   const check::ShapeReport report = result::verify(file);
   EXPECT_TRUE(report.complete()) << result::to_table(report, file);
   EXPECT_EQ(file.shape.genus, std::vector<int>{4});
+}
+
+// An arm's torus: its sheets' regions end at the same value of a joint where they touch, so that a solution is shown to lie
+// in both only where that value is given.
+TEST(ShapeFile, OfAnArmHoldsTheValuesInWhichSheetsTouch) {
+  const ShapeFile file =
+      make_file(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/serial/orthogonal_3r.cuik").mechanism);
+  const Cover& space = file.shape.space;
+  std::vector<std::vector<int>> free(space.regions.size());
+  for (const CoverBox& box : space.boxes) free.at(box.region) = box.free;
+  int touching = 0;
+  for (const SheetLink& link : file.shape.links) {
+    if (std::max<std::size_t>(link.first, link.second) >= free.size()) continue;  // a bridge's
+    for (const int f : free[link.first]) {
+      Interval common = space.regions[link.first][f];
+      ASSERT_TRUE(common.intersect(space.regions[link.second][f]));
+      if (common.lo() < common.hi()) continue;
+      EXPECT_THAT(link.held, ::testing::Contains(f));
+      ++touching;
+    }
+  }
+  EXPECT_GT(touching, 0);
+  if (!test::long_run()) return;
+  EXPECT_TRUE(result::verify(file).complete());
 }
 
 TEST(ShapeFile, IsNotGivenOfASetWithAnEnd) {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <regex>
 #include <set>
@@ -14,6 +15,7 @@
 #include "corank/app/limited_run.h"
 #include "corank/app/run.h"
 #include "corank/tests/app/program.h"
+#include "corank/tests/seeds.h"
 
 namespace corank::app {
 namespace {
@@ -85,10 +87,15 @@ Words in_folder(Words args, const TemporaryFolder& folder) {
   return args;
 }
 
-// 1, 4, 16, … and as many before the end.
-std::set<long> moments(long questions) {
-  std::set<long> all;
-  for (long k = 1; k <= questions; k *= 4) all.insert({k, questions + 1 - k});
+// 1, 8, 64, … and as many before the end, in turn by the limit and by a signal. A long run has 1, 4, 16, …, by both.
+std::map<Way, std::set<long>> moments(long questions) {
+  std::map<Way, std::set<long>> all;
+  int turn = 0;
+  for (long k = 1; k <= questions; k *= test::long_run() ? 4 : 8, ++turn)
+    for (const Way way : {Way::limit, Way::interrupt}) {
+      if (test::long_run() || (turn % 2 == 0) == (way == Way::limit)) all[way].insert(k);
+      if (test::long_run() || (turn % 2 == 0) == (way == Way::interrupt)) all[way].insert(questions + 1 - k);
+    }
   return all;
 }
 
@@ -127,8 +134,8 @@ TEST_P(AnyMoment, EndsTheCommandWithWhatHoldsByThen) {
   ASSERT_EQ(whole.status, command.status) << whole.err;
   ASSERT_GT(whole.questions, 0) << "it never asks whether it is to end";
   int ended = 0;
-  for (const Way way : {Way::limit, Way::interrupt}) {
-    for (const long k : moments(whole.questions)) {
+  for (const auto& [way, at] : moments(whole.questions)) {
+    for (const long k : at) {
       SCOPED_TRACE((way == Way::limit ? "the limit at question " : "a signal at question ") + std::to_string(k) + " of " +
                    std::to_string(whole.questions));
       const Done run = run_at(way, k - 1, false);

@@ -20,7 +20,7 @@ struct JsonCommand {
 };
 
 std::vector<JsonCommand> commands(const TemporaryFolder& folder) {
-  const std::string slider = model("three_slider"), dextar = model("dextar"), result = folder.file("r.h5");
+  const std::string slider = model("three_slider"), result = folder.file("r.h5");
   EXPECT_EQ(run_corank({"solve", slider, "--set", "forward", "-o", result}).status, 0);
   return {
       {{"derive", "--set", "forward"}, slider, "systems"},
@@ -32,14 +32,12 @@ std::vector<JsonCommand> commands(const TemporaryFolder& folder) {
       {{"map", "--over", "L1=1:2", "--over", "L2=1:2", "--fix", "x_C=1/2", "--resolution", "8", "--no-boundary"},
        slider,
        "cells"},
-      {{"clearance", "--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y"}, dextar, "radius"},
-      {{"clearance", "--best", "J3x=[0.4,0.6],J3y=[0.9,1.1]", "--precision", "0.5"}, dextar, "radius"},
-      {{"clearance", "--map", "J3x=[0.4,0.6],J3y=[0.9,1.1]", "--grid", "2", "-o", folder.file("map.csv")}, dextar, "cells"},
+      {{"clearance", "--at", "x_C=0.5", "--in", "x_C"}, slider, "radius"},
+      {{"clearance", "--best", "x_C=[0.4,0.6]", "--precision", "0.5"}, slider, "radius"},
+      {{"clearance", "--map", "x_C=[0.4,0.6],y_A=[0.9,1]", "--grid", "2", "-o", folder.file("map.csv")}, slider, "cells"},
       {{"topology"}, slider, "components"},
       {{"aspects"}, slider, "aspects"},
-      {{"path", "--from", "J3x=0.5,J3y=1", "--from-mode", "1", "--to", "J3x=0.51,J3y=1", "--to-mode", "1"},
-       dextar,
-       "waypoints"},
+      {{"path", "--from", "x_C=0.5", "--from-mode", "1", "--to", "x_C=0.51", "--to-mode", "1"}, slider, "waypoints"},
   };
 }
 
@@ -139,7 +137,7 @@ TEST(WithoutEffect, OptionsAreErrorsThatNameThem) {
       {{"verify", shape, "--sample", "3"}, "--sample: without effect"},
   };
   for (const auto& [args, expected] : cases) {
-    const Outcome outcome = run_corank(args);
+    const Outcome outcome = run_corank_in_a_copy(args, {});
     EXPECT_EQ(outcome.status, 2) << expected;
     EXPECT_THAT(outcome.err, HasSubstr(expected));
     EXPECT_EQ(outcome.out, "");

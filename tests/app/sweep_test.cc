@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -14,6 +15,7 @@
 #include "corank/result/files/result_file.h"
 #include "corank/tests/app/program.h"
 #include "corank/tests/report/page_text.h"
+#include "corank/tests/seeds.h"
 
 namespace corank::app {
 namespace {
@@ -77,7 +79,7 @@ TEST(SweepUsage, IsRefusedWithStatus2) {
     const TemporaryFolder folder;
     std::vector<std::string> args{"sweep", model("three_slider"), "-o", folder.file("f")};
     for (const std::string& definition : c.definitions) args.insert(args.end(), {"-D", definition});
-    const Outcome outcome = run_corank(args);
+    const Outcome outcome = run_corank_in_a_copy(args, {});
     EXPECT_EQ(outcome.status, 2) << testing::PrintToString(c.definitions);
     EXPECT_THAT(outcome.err, HasSubstr(c.expected));
     EXPECT_FALSE(std::filesystem::exists(folder.file("f")));
@@ -101,34 +103,41 @@ TEST(SweepBadInput, IsRefusedWithStatus1BeforeAnythingIsSolved) {
 }
 
 /// l2 = 1.6, 1.25, 0.9; l3 = l4 = l5 = 0.9; d = 1.18. J3 is |l2 − l3| = 0.7, 0.35, 0 away from J1 = (d, 0) at least.
-class DextarFamily : public testing::Test {
- protected:
+class DextarFamily {
+ public:
+  DextarFamily()
+      : outcome_(run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:3", "--cspace-sigma", "0.2", "--sigma", "0.05",
+                             "-o", folder_.file("f")})) {
+    EXPECT_EQ(outcome_.status, 0) << outcome_.err;
+    for (int m = 0; m < kMembers; ++m)
+      for (const std::string& set : kSets) results_[{m, set}] = result::read_result(path(file(m, set)));
+  }
+  void is_solved_whole() const;
+  void shows_what_its_result_files_hold() const;
+  void has_the_counts_of_its_results_in_the_table() const;
+  void leaves_the_disc_about_j1_empty_that_the_links_do_not_reach() const;
+  void has_the_inverse_locus_on_its_circles_and_nowhere_else() const;
+  void shrinks_a_circle_of_inverse_singularities_to_a_point() const;
+  void has_figures_with_the_same_axes() const;
+  void can_be_verified() const;
+
+ private:
   static constexpr int kMembers = 3;
   static constexpr double kBase = 1.18, kLink = 0.9, kTiny = 1e-12;
   static const std::array<std::string, 3> kSets;
 
-  static void SetUpTestSuite() {
-    folder_ = new TemporaryFolder;
-    outcome_ = new Outcome(run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:3", "--cspace-sigma", "0.2", "--sigma",
-                                       "0.05", "-o", folder_->file("f")}));
-  }
-  static void TearDownTestSuite() {
-    delete outcome_;
-    delete folder_;
-  }
-  static std::string path(const std::string& name) { return folder_->file("f/" + name); }
+  std::string path(const std::string& name) const { return folder_.file("f/" + name); }
   static std::string file(int member, const std::string& set) {
     return "member-" + std::to_string(member + 1) + "-" + set + ".h5";
   }
-  static Result result(int member, const std::string& set) { return result::read_result(path(file(member, set))); }
+  const Result& result(int member, const std::string& set) const { return results_.at({member, set}); }
   static double l2(int member) { return 1.6 - 0.35 * member; }
   static double hole(int member) { return l2(member) - kLink; }
 
-  static TemporaryFolder* folder_;
-  static Outcome* outcome_;
+  const TemporaryFolder folder_;
+  const Outcome outcome_;
+  std::map<std::pair<int, std::string>, Result> results_;
 };
-TemporaryFolder* DextarFamily::folder_ = nullptr;
-Outcome* DextarFamily::outcome_ = nullptr;
 const std::array<std::string, 3> DextarFamily::kSets{"cspace", "forward", "inverse"};
 
 /// The distances from (x, 0) that the points of a box of J3 have.
@@ -138,12 +147,11 @@ std::pair<double, double> distances(const Box& box, double x) {
   return {std::hypot(near(box[0], x), near(box[1], 0)), std::hypot(far(box[0], x), far(box[1], 0))};
 }
 
-TEST_F(DextarFamily, IsSolvedWhole) {
-  EXPECT_EQ(outcome_->status, 0) << outcome_->err;
-  EXPECT_THAT(outcome_->out, HasSubstr("l2 = 1.25, C-space: Surfaces"));
+void DextarFamily::is_solved_whole() const {
+  EXPECT_THAT(outcome_.out, HasSubstr("l2 = 1.25, C-space: Surfaces"));
   for (int m = 0; m < kMembers; ++m) {
     for (const std::string& set : kSets) {
-      const Result r = result(m, set);
+      const Result& r = result(m, set);
       EXPECT_TRUE(r.cover.complete());
       const double sigma = set == "cspace" ? 0.2 : 0.05;
       EXPECT_EQ(r.cover.sigma, (Sigma{sigma, sigma}));
@@ -155,9 +163,9 @@ TEST_F(DextarFamily, IsSolvedWhole) {
   }
 }
 
-TEST_F(DextarFamily, ShowsWhatItsResultFilesHold) {
+void DextarFamily::shows_what_its_result_files_hold() const {
   const std::string page = read_text(path("index.html"));
-  const json model = page_model(folder_->file("f"));
+  const json model = page_model(folder_.file("f"));
   EXPECT_EQ(model["constant"]["name"], "l2");
   EXPECT_EQ(model["coordinates"][0]["name"], "J3x");
   EXPECT_EQ(model["coordinates"][1]["name"], "J3y");
@@ -165,7 +173,7 @@ TEST_F(DextarFamily, ShowsWhatItsResultFilesHold) {
   for (int m = 0; m < kMembers; ++m) {
     EXPECT_NEAR(model["members"][m]["value"].get<double>(), l2(m), kTiny);
     for (std::size_t s = 0; s < kSets.size(); ++s) {
-      const Result r = result(m, kSets[s]);
+      const Result& r = result(m, kSets[s]);
       const json& set = model["members"][m]["sets"][s];
       EXPECT_EQ(set["name"], kSets[s]);
       EXPECT_EQ(set["count"], r.cover.boxes.size());
@@ -178,7 +186,7 @@ TEST_F(DextarFamily, ShowsWhatItsResultFilesHold) {
   }
 }
 
-TEST_F(DextarFamily, HasTheCountsOfItsResultsInTheTable) {
+void DextarFamily::has_the_counts_of_its_results_in_the_table() const {
   const std::string page = read_text(path("index.html"));
   const std::size_t begin = page.find("<section id=\"counts\">"), end = page.find("</section>", begin);
   const std::string table = page.substr(begin, end - begin);
@@ -190,7 +198,7 @@ TEST_F(DextarFamily, HasTheCountsOfItsResultsInTheTable) {
     for (std::sregex_iterator c(cells.begin(), cells.end(), cell); c != none; ++c)
       numbers.push_back(std::stoul(std::regex_replace((*c)[1].str(), gap, "")));
     for (const std::string& set : kSets) {
-      const Result own = result(rows, set);
+      const Result& own = result(rows, set);
       expected.push_back(static_cast<std::size_t>(report::components(own).count));
       expected.push_back(own.cover.boxes.size());
       for (int v = 0; v < kVerdicts; ++v) {
@@ -205,7 +213,7 @@ TEST_F(DextarFamily, HasTheCountsOfItsResultsInTheTable) {
   EXPECT_EQ(rows, kMembers);
 }
 
-TEST_F(DextarFamily, LeavesTheDiscAboutJ1EmptyThatTheLinksDoNotReach) {
+void DextarFamily::leaves_the_disc_about_j1_empty_that_the_links_do_not_reach() const {
   for (int m = 0; m < kMembers; ++m) {
     for (const std::string& set : kSets) {
       for (const CoverBox& b : result(m, set).cover.boxes)
@@ -214,7 +222,7 @@ TEST_F(DextarFamily, LeavesTheDiscAboutJ1EmptyThatTheLinksDoNotReach) {
   }
 }
 
-TEST_F(DextarFamily, HasTheInverseLocusOnItsCirclesAndNowhereElse) {
+void DextarFamily::has_the_inverse_locus_on_its_circles_and_nowhere_else() const {
   for (int m = 0; m < kMembers; ++m) {
     for (const CoverBox& b : result(m, "inverse").cover.boxes) {
       if (b.verdict != Verdict::regular) continue;
@@ -228,9 +236,9 @@ TEST_F(DextarFamily, HasTheInverseLocusOnItsCirclesAndNowhereElse) {
   }
 }
 
-TEST_F(DextarFamily, ShrinksACircleOfInverseSingularitiesToAPoint) {
+void DextarFamily::shrinks_a_circle_of_inverse_singularities_to_a_point() const {
   for (int m = 0; m < kMembers; ++m) {
-    const Result inverse = result(m, "inverse");
+    const Result& inverse = result(m, "inverse");
     int places = 0;
     for (int k = 0; k < 360; ++k) {
       const double t = k * M_PI / 180, x = kBase + hole(m) * std::cos(t), y = hole(m) * std::sin(t);
@@ -247,7 +255,7 @@ TEST_F(DextarFamily, ShrinksACircleOfInverseSingularitiesToAPoint) {
   }
 }
 
-TEST_F(DextarFamily, HasFiguresWithTheSameAxes) {
+void DextarFamily::has_figures_with_the_same_axes() const {
   const std::regex ranges("data-x=\"([^\"]*)\" data-y=\"([^\"]*)\"");
   std::vector<std::string> found;
   for (const char* name : {"member-1.svg", "member-2.svg", "member-3.svg", "family.svg"}) {
@@ -259,9 +267,22 @@ TEST_F(DextarFamily, HasFiguresWithTheSameAxes) {
   for (const std::string& text : found) EXPECT_EQ(text, found.front());
 }
 
-TEST_F(DextarFamily, CanBeVerified) {
+void DextarFamily::can_be_verified() const {
   const Outcome outcome = run_corank({"verify", path(file(0, "forward"))});
   EXPECT_EQ(outcome.status, 4) << outcome.out << outcome.err;  // all but its completeness
+}
+
+// One sweep for all of these.
+TEST(Sweep, OfDextarAgreesWithItsFilesAndWithClosedForms) {
+  const DextarFamily family;
+  family.is_solved_whole();
+  family.shows_what_its_result_files_hold();
+  family.has_the_counts_of_its_results_in_the_table();
+  family.leaves_the_disc_about_j1_empty_that_the_links_do_not_reach();
+  family.has_the_inverse_locus_on_its_circles_and_nowhere_else();
+  family.shrinks_a_circle_of_inverse_singularities_to_a_point();
+  family.has_figures_with_the_same_axes();
+  family.can_be_verified();
 }
 
 TEST(Sweep, OfALimitedSearchSaysSoAndHasStatus3) {
@@ -275,9 +296,10 @@ TEST(Sweep, OfALimitedSearchSaysSoAndHasStatus3) {
 
 TEST(Sweep, HasTheSameResultsForAnyNumberOfThreads) {
   const TemporaryFolder folder;
-  // C-space takes more memory than searches that are made ahead may; the loci do not.
+  // In a long run C-space takes more memory than searches that are made ahead may; the loci do not.
+  const std::string of_loci = test::long_run() ? "0.02" : "0.05", of_cspace = test::long_run() ? "0.03" : "0.1";
   const auto sweep = [&](const std::string& name, const std::string& threads) {
-    return run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:3", "--sigma", "0.02", "--cspace-sigma", "0.04",
+    return run_corank({"sweep", model("dextar"), "-D", "l2=1.6:0.9:3", "--sigma", of_loci, "--cspace-sigma", of_cspace,
                        "--threads", threads, "-o", folder.file(name)});
   };
   const Outcome one = sweep("1", "1"), four = sweep("4", "4");

@@ -124,7 +124,7 @@ TEST(Usage, IsRefusedWithStatus2AndOneLine) {
       {{"solve", slider, "--set", "forward", "-o", slider}, "looks like a model"},
   };
   for (const Case& c : cases) {
-    const Outcome outcome = run_corank(c.args);
+    const Outcome outcome = run_corank_in_a_copy(c.args, {});
     SCOPED_TRACE(testing::PrintToString(c.args));
     EXPECT_EQ(outcome.status, 2) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(c.expected));
@@ -159,7 +159,7 @@ TEST(BadInput, IsRefusedWithStatus1AndOneLine) {
       {{"solve", slider, "--set", "forward", "--json", folder.file("none/r.json")}, "none/r.json"},
   };
   for (const Case& c : cases) {
-    const Outcome outcome = run_corank(c.args);
+    const Outcome outcome = run_corank_in_a_copy(c.args, {});
     SCOPED_TRACE(testing::PrintToString(c.args));
     EXPECT_EQ(outcome.status, 1) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(c.expected));
@@ -222,7 +222,7 @@ TEST(BadInput, IsReadFromNoPipeAndNoDevice) {
   for (const char* command : {"solve", "topology", "aspects", "report"}) all.push_back({command, pipe(".cuik")});
   for (const std::vector<std::string>& args : all) {
     SCOPED_TRACE(testing::PrintToString(args));
-    const Outcome outcome = run_corank(args);
+    const Outcome outcome = run_corank_in_a_copy(args, {});
     EXPECT_EQ(outcome.status, 1) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("is not a regular file"));
     expect_one_line(outcome);

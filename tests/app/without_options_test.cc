@@ -36,8 +36,7 @@ TEST(WithoutCairo, PdfAndPngAreRefusedBeforeAnyWork) {
 
 TEST(WithoutCairo, AReportHasItsFiguresAsSvgAlone) {
   const TemporaryFolder folder;
-  const Outcome report = run_corank_without_options(
-      {"report", model("dextar"), "--sigma", "0.2", "--cspace-sigma", "0.5", "-o", folder.file("r")});
+  const Outcome report = run_corank_without_options({"report", model("three_slider"), "-o", folder.file("r")});
   ASSERT_EQ(report.status, 0) << report.err;
   std::vector<std::string> figures;
   for (const auto& entry : std::filesystem::directory_iterator(folder.file("r/figures")))

@@ -12,8 +12,8 @@
 namespace corank::certify {
 namespace {
 
-constexpr double kPi = 3.141592653589793;  // below the true pi
-const Interval kCircle(-std::nextafter(kPi, 4), std::nextafter(kPi, 4));
+constexpr double kPiBelow = 3.141592653589793;  // below the true pi
+const Interval kCircle(-std::nextafter(kPiBelow, 4), std::nextafter(kPiBelow, 4));
 
 // Is some θ + 2πk, |k| ≤ 3, in the interval? The sample's own rounding (long double) is far below the tolerance.
 bool holds(const Interval& angles, long double theta) {
@@ -35,9 +35,9 @@ std::vector<double> samples(const Interval& x) {
 
 TEST(AngleEnclosure, IsTheHullAcrossTheNegativeAxis) {
   const Interval a = angle_enclosure({-1.0, -0.9}, {-0.1, 0.1}, kCircle);
-  EXPECT_NEAR(a.lo(), std::atan2(0.1, -0.9), 1e-15);             // 3.0309
-  EXPECT_NEAR(a.hi(), 2 * kPi + std::atan2(-0.1, -0.9), 1e-15);  // 3.2523
-  EXPECT_TRUE(Interval(3.0309, 3.2523).contains(a));             // the known hull, printed outward
+  EXPECT_NEAR(a.lo(), std::atan2(0.1, -0.9), 1e-15);                  // 3.0309
+  EXPECT_NEAR(a.hi(), 2 * kPiBelow + std::atan2(-0.1, -0.9), 1e-15);  // 3.2523
+  EXPECT_TRUE(Interval(3.0309, 3.2523).contains(a));                  // the known hull, printed outward
   EXPECT_TRUE(a.contains(Interval(3.0310, 3.2522)));
 }
 
@@ -58,8 +58,8 @@ TEST(AngleEnclosure, HoldsEverySampleOfRandomBoxes) {
         const long double theta = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
         ASSERT_TRUE(holds(a, theta)) << "c = " << x << ", s = " << y << ", angle " << static_cast<double>(theta)
                                      << " not in [" << a.lo() << ", " << a.hi() << "]";
-        const double turned =
-            static_cast<double>(theta + 2 * kPi * std::ceil((a.lo() - 1e-12 - static_cast<double>(theta)) / (2 * kPi)));
+        const double turned = static_cast<double>(
+            theta + 2 * kPiBelow * std::ceil((a.lo() - 1e-12 - static_cast<double>(theta)) / (2 * kPiBelow)));
         lowest = std::min(lowest, turned);
         highest = std::max(highest, turned);
       }
@@ -86,26 +86,26 @@ TEST(AngleEnclosure, HoldsExactAnglesOfPointsTightly) {
 TEST(AngleEnclosure, SaysNothingWhereTheBoxHoldsTheOrigin) {
   for (const Interval& c : {Interval(-0.5, 0.5), Interval(0.0, 1.0), Interval(-1.0, 0.0)}) {
     const Interval a = angle_enclosure(c, {-0.25, 0.0}, kCircle);
-    EXPECT_EQ(a.lo(), -std::nextafter(kPi, 4));
-    EXPECT_EQ(a.hi(), std::nextafter(kPi, 4));
+    EXPECT_EQ(a.lo(), -std::nextafter(kPiBelow, 4));
+    EXPECT_EQ(a.hi(), std::nextafter(kPiBelow, 4));
   }
 }
 
 TEST(AngleEnclosure, TurnsIntoTheDeclaredRange) {
   const Interval c(-0.1, 0.1), s(-1.0, -0.9);  // about −π/2
-  EXPECT_NEAR(angle_enclosure(c, s, {-4.0, 4.0}).mid(), -kPi / 2, 1e-12);
-  EXPECT_NEAR(angle_enclosure(c, s, {0.0, 6.4}).mid(), 1.5 * kPi, 1e-12);
-  EXPECT_NEAR(angle_enclosure(c, s, {30.0, 36.4}).mid(), -kPi / 2 + 12 * kPi, 1e-12);
-  EXPECT_NEAR(angle_enclosure(c, s, {-36.4, -30.0}).mid(), -kPi / 2 - 10 * kPi, 1e-12);
-  EXPECT_NEAR(angle_enclosure(c, s, Interval::whole()).mid(), -kPi / 2, 1e-12);
+  EXPECT_NEAR(angle_enclosure(c, s, {-4.0, 4.0}).mid(), -kPiBelow / 2, 1e-12);
+  EXPECT_NEAR(angle_enclosure(c, s, {0.0, 6.4}).mid(), 1.5 * kPiBelow, 1e-12);
+  EXPECT_NEAR(angle_enclosure(c, s, {30.0, 36.4}).mid(), -kPiBelow / 2 + 12 * kPiBelow, 1e-12);
+  EXPECT_NEAR(angle_enclosure(c, s, {-36.4, -30.0}).mid(), -kPiBelow / 2 - 10 * kPiBelow, 1e-12);
+  EXPECT_NEAR(angle_enclosure(c, s, Interval::whole()).mid(), -kPiBelow / 2, 1e-12);
 }
 
 TEST(AngleEnclosure, KeepsToTheSideOfTheCutThatItTouches) {
   const Interval above = angle_enclosure({-1.0, -0.9}, {0.0, 0.1}, kCircle);
   EXPECT_NEAR(above.lo(), std::atan2(0.1, -0.9), 1e-15);
-  EXPECT_EQ(above.hi(), std::nextafter(kPi, 4));
+  EXPECT_EQ(above.hi(), std::nextafter(kPiBelow, 4));
   const Interval below = angle_enclosure({-1.0, -0.9}, {-0.1, 0.0}, kCircle);
-  EXPECT_EQ(below.lo(), -std::nextafter(kPi, 4));
+  EXPECT_EQ(below.lo(), -std::nextafter(kPiBelow, 4));
   EXPECT_NEAR(below.hi(), std::atan2(-0.1, -0.9), 1e-15);
   EXPECT_EQ(angle_enclosure({-1.0, -0.9}, {-0.0, -0.0}, kCircle), angle_enclosure({-1.0, -0.9}, {0.0, 0.0}, kCircle));
 }

@@ -12,7 +12,7 @@ namespace corank::certify {
 namespace {
 
 // x² + y² = 1, for each x two sheets.
-System circle() {
+System unit_circle() {
   System s;
   for (const char* name : {"x", "y"}) s.variables.emplace_back(name, VariableKind::length, -2, 2);
   s.equations.push_back({{Monomial(1, {Factor{0, 2}}), Monomial(1, {Factor{1, 2}}), Monomial(-1, {})}, "circle"});
@@ -20,7 +20,7 @@ System circle() {
 }
 
 Box solution(double x, const Interval& y) {
-  SignCellTest test(circle(), {});
+  SignCellTest test(unit_circle(), {});
   const SheetCell cell{{0}, {Interval(-0.95, 0.95), y}};
   return test.solution_over(cell, cell.sides, {Interval(x), y});
 }
@@ -51,7 +51,7 @@ TEST(SignCell, StaysInTheRegionWhereTheSolutionIsOnItsBorder) {
 // Chord steps from the middle of the sides end at the other sheet, whose solution is not meant.
 TEST(SignCell, LeavesASolutionBesideItsRegion) {
   const UpwardRounding rounding;
-  SignCellTest test(circle(), {});
+  SignCellTest test(unit_circle(), {});
   const SheetCell cell{{0}, {Interval(-0.1, 0.1), Interval(0.9, 1.1)}};
   const Box found = test.solution_over(cell, cell.sides, {Interval(0), Interval(-4.1, 1.1)});
   EXPECT_TRUE(found[1].contains(1.0));

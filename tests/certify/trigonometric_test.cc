@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "corank/core/rounding.h"
+#include "corank/tests/seeds.h"
 
 namespace corank::certify {
 namespace {
@@ -119,12 +120,14 @@ class Arguments {
 
 class Trigonometric : public testing::Test {
  protected:
+  static int trials(int usual) { return test::long_run() ? 10'000 : usual; }
+
   UpwardRounding rounding_;
   Arguments arguments_;
 };
 
 TEST_F(Trigonometric, SinesAndCosinesContainTheExactValues) {
-  for (int trial = 0; trial < 4'000; ++trial) {
+  for (int trial = 0; trial < trials(1'500); ++trial) {
     const Interval x = arguments_.interval(), s = sine(x), c = cosine(x);
     ASSERT_TRUE(Interval(-1, 1).contains(s) && Interval(-1, 1).contains(c)) << x;
     for (const double a : {x.lo(), x.hi(), arguments_.in(x), arguments_.in(x)}) {
@@ -135,7 +138,7 @@ TEST_F(Trigonometric, SinesAndCosinesContainTheExactValues) {
 }
 
 TEST_F(Trigonometric, TheValueAtAPointIsGoodToAFewUnitsInTheLastPlace) {
-  for (int trial = 0; trial < 10'000; ++trial) {
+  for (int trial = 0; trial < trials(4'000); ++trial) {
     const double x = arguments_.next();
     if (std::fabs(x) > kMaxArgument) continue;
     for (const auto& [enclosure, exact] : {std::pair{sine(x), sin(LongReal(x))}, std::pair{cosine(x), cos(LongReal(x))}}) {
@@ -166,7 +169,7 @@ TEST_F(Trigonometric, AnIntervalReachesItsExtremesAndNoMore) {
 }
 
 TEST_F(Trigonometric, SlopesContainEveryQuotientOfDifferences) {
-  for (int trial = 0; trial < 10'000; ++trial) {
+  for (int trial = 0; trial < trials(4'000); ++trial) {
     const Interval x = arguments_.interval();
     const double a = arguments_.in(x);
     const double c = trial % 3 == 0 ? a : trial % 3 == 1 ? x.mid() : a + arguments_.uniform(-3, 3);
@@ -186,7 +189,7 @@ TEST_F(Trigonometric, SlopesAreHalfAsWideAsDerivatives) {
 }
 
 TEST_F(Trigonometric, InverseImagesKeepEveryPoint) {
-  for (int trial = 0; trial < 10'000; ++trial) {
+  for (int trial = 0; trial < trials(4'000); ++trial) {
     const Interval within = arguments_.interval();
     const double a = arguments_.in(within);
     const LongReal s = sin(LongReal(a)), c = cos(LongReal(a));

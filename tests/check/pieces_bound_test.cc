@@ -97,43 +97,46 @@ Quadric random_quadric(std::mt19937& random) {
   return q;
 }
 
-// Connected groups of grid points of like signs; those of a few points may be a grid's artefact.
-std::map<std::vector<int>, int> groups(const std::vector<Quadric>& f, const std::array<double, 4>& box, int rows,
-                                       std::size_t least) {
-  const auto at = [&](int i, int j) {
-    std::vector<int> signs;
-    for (const Quadric& q : f)
-      signs.push_back(
-          q(box[0] + (i + 0.5) / rows * (box[1] - box[0]), box[2] + (j + 0.5) / rows * (box[3] - box[2])) > 0 ? 1 : -1);
-    return signs;
-  };
-  std::vector<std::vector<int>> signs;
+// Connected groups of grid points of like signs: how many points each has. Those of a few may be a grid's artefact.
+using Groups = std::map<std::vector<int>, std::vector<int>>;
+Groups groups(const std::vector<Quadric>& f, const std::array<double, 4>& box, int rows) {
+  std::vector<unsigned> signs;  // a bit for each function: is it positive?
   for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < rows; ++j) signs.push_back(at(i, j));
+    for (int j = 0; j < rows; ++j) {
+      const double x = box[0] + (i + 0.5) / rows * (box[1] - box[0]), y = box[2] + (j + 0.5) / rows * (box[3] - box[2]);
+      unsigned bits = 0;
+      for (std::size_t k = 0; k < f.size(); ++k)
+        if (f[k](x, y) > 0) bits |= 1U << k;
+      signs.push_back(bits);
+    }
   std::vector<char> seen(signs.size(), 0);
-  std::map<std::vector<int>, int> result;
+  Groups result;
   for (std::size_t start = 0; start < signs.size(); ++start) {
     if (seen[start]) continue;
     std::vector<std::size_t> open{start};
     seen[start] = 1;
-    std::size_t size = 0;
+    int size = 0;
     while (!open.empty()) {
       const int p = static_cast<int>(open.back());
       open.pop_back();
       ++size;
-      for (int di = -1; di <= 1; ++di)
-        for (int dj = -1; dj <= 1; ++dj) {
-          const int i = p / rows + di, j = p % rows + dj;
-          if (i < 0 || j < 0 || i >= rows || j >= rows) continue;
+      for (int i = std::max(p / rows - 1, 0); i <= std::min(p / rows + 1, rows - 1); ++i)
+        for (int j = std::max(p % rows - 1, 0); j <= std::min(p % rows + 1, rows - 1); ++j) {
           const auto next = static_cast<std::size_t>(i * rows + j);
           if (seen[next] || signs[next] != signs[start]) continue;
           seen[next] = 1;
           open.push_back(next);
         }
     }
-    result[signs[start]] += size >= least;
+    std::vector<int> of;
+    for (std::size_t k = 0; k < f.size(); ++k) of.push_back((signs[start] >> k & 1U) != 0 ? 1 : -1);
+    result[of].push_back(size);
   }
   return result;
+}
+
+auto count_of_at_least(int least, const std::vector<int>& sizes) {
+  return std::count_if(sizes.begin(), sizes.end(), [&](int size) { return size >= least; });
 }
 
 TEST(SignParts, OfRandomQuadricsAreThoseOfAGrid) {
@@ -148,18 +151,18 @@ TEST(SignParts, OfRandomQuadricsAreThoseOfAGrid) {
     Sheet sheet(texts);
     const double x = place(random), y = place(random);
     const std::array box{x, std::min(1.0, x + width(random)), y, std::min(1.0, y + width(random))};
-    const auto there = groups(f, box, 150, 1), large = groups(f, box, 150, 12);
+    const Groups there = groups(f, box, 150);
     for (int choice = 0; choice < 1 << f.size(); ++choice) {
       std::vector<int> signs;
       for (std::size_t k = 0; k < f.size(); ++k) signs.push_back((choice >> k & 1) != 0 ? 1 : -1);
-      const auto found = there.find(signs), sure = large.find(signs);
+      const auto found = there.find(signs);
       const Part part = sheet.part(box[0], box[1], box[2], box[3], signs);
       ++(part == Part::unknown ? lost : known);
       if (part == Part::empty) {
         EXPECT_EQ(found, there.end()) << trial;
       }
-      if (part == Part::connected && sure != large.end()) {
-        EXPECT_LE(sure->second, 1) << trial;
+      if (part == Part::connected && found != there.end()) {
+        EXPECT_LE(count_of_at_least(12, found->second), 1) << trial;
       }
     }
   }
@@ -241,8 +244,8 @@ TEST(PieceBound, OfRandomQuadricsIsNeverTooSmall) {
     PieceProof proof;
     cut(proof.cells, {Interval(-1, 1), Interval(-1, 1)}, 5, random);
     const PieceBound found = plane.bound(f, proof);
-    int pieces = 0;
-    for (const auto& [signs, count] : groups(f, {-1, 1, -1, 1}, 300, 20)) pieces += count;
+    std::ptrdiff_t pieces = 0;
+    for (const auto& [signs, sizes] : groups(f, {-1, 1, -1, 1}, 300)) pieces += count_of_at_least(20, sizes);
     if (!found.at_most) continue;
     ++bounded;
     EXPECT_GE(*found.at_most, pieces) << trial << ": " << f.front().text();

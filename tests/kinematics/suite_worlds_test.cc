@@ -7,11 +7,14 @@
 #include <fstream>
 #include <iostream>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "corank/kinematics/equations/assembly.h"
 #include "corank/kinematics/language/part_file.h"
 #include "corank/tests/cuik/suite_files.h"
+#include "corank/tests/seeds.h"
 
 namespace corank::kinematics {
 namespace {
@@ -72,6 +75,13 @@ std::string how_it_moves(const Robot& robot) {
   return text;
 }
 
+// Of many loops, each like another that is assembled always: for long runs.
+bool is_dear(const std::string& world) {
+  static const std::set<std::string> dear{"Bio/cs_orig.world", "Bio/csh_orig.world", "Symmetry/example2p.world",
+                                          "Symmetry/example6.world", "Symmetry/example6b.world"};
+  return dear.contains(world);
+}
+
 TEST(SuiteWorlds, MoveAsTheDocumentationSays) {
   SKIP_WITHOUT_SUITE_FILES();
   if (!fs::exists(cuik::suite_folder() / "worlds")) GTEST_SKIP() << "no mechanism files in " << cuik::suite_folder();
@@ -87,6 +97,7 @@ TEST(SuiteWorlds, MoveAsTheDocumentationSays) {
     EXPECT_EQ(whole, !moves.empty()) << line;
     if (!whole) continue;
     ++assembled;
+    if (is_dear(match[1]) && !test::long_run()) continue;
     EXPECT_EQ(how_it_moves(read_part_file(cuik::suite_folder() / "worlds" / match[1].str())) + " ", moves) << line;
   }
   EXPECT_EQ(read, 102u);

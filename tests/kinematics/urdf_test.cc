@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "corank/tests/kinematics/transform.h"
+#include "corank/tests/seeds.h"
 
 extern "C" int fuzz_urdf(const std::uint8_t* data, std::size_t size);
 
@@ -540,7 +541,7 @@ TEST(Urdf, NeverCrashesWhateverTheBytes) {
   for (const auto& [name, trials] : {std::pair("arm_3r.urdf", 3'000), std::pair("five_bar.urdf", 3'000),
                                      std::pair("ur5_like.urdf", 3'000), std::pair("every_joint.urdf", 1'000)}) {
     const std::string original = text_of(name);
-    for (int trial = 0; trial < trials; ++trial) {
+    for (int trial = 0; trial < trials / (test::long_run() ? 1 : 3); ++trial) {
       std::string text = original;
       for (std::size_t changes = 1 + below(4); changes > 0; --changes) {
         const std::size_t at = below(text.size());
@@ -561,8 +562,8 @@ TEST(Urdf, NeverCrashesWhateverTheBytes) {
       }
     }
   }
-  EXPECT_GT(read, 500);
-  EXPECT_GT(refused, 2'000);
+  EXPECT_GT(read, (read + refused) / 20);
+  EXPECT_GT(refused, (read + refused) / 5);
 }
 
 }  // namespace

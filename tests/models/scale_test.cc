@@ -10,6 +10,7 @@
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/symbolic/sets/singularity_system.h"
+#include "corank/tests/seeds.h"
 
 namespace corank {
 namespace {
@@ -74,7 +75,8 @@ TEST_P(LengthsTimes, AnyFactorGiveTheSameCounts) {
   const std::string text = symbolic::read_model(file).source_text();
   for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse, SingularitySet::cspace}) {
     const Cover base = cover_of(text, set);
-    for (const char* k : {"(1/1000)", "1000", "1000000"}) {
+    for (const char* k : {"(1/1000)", "1000000", "1000"}) {
+      if (std::string(k) == "1000" && !test::long_run()) continue;
       SCOPED_TRACE(std::string(k) + ", set " + std::to_string(static_cast<int>(set)));
       expect_same(cover_of(scaled(text, k), set), base);
     }
@@ -82,9 +84,9 @@ TEST_P(LengthsTimes, AnyFactorGiveTheSameCounts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, LengthsTimes,
-                         ::testing::Values("three_slider", "dextar", "spherical_five_bar", "fiveR", "fiveR_narrow",
-                                           "rhombus", "rpr3_innocenti_slice", "rpr3u_m", "rpr3u_mm", "rssr",
-                                           "spherical5_3out", "stephenson3", "watt"),
+                         ::testing::Values("three_slider", "dextar", "spherical_five_bar", "fiveR_narrow", "rhombus",
+                                           "rpr3_innocenti_slice", "rpr3u_m", "rpr3u_mm", "rssr", "spherical5_3out",
+                                           "stephenson3", "watt"),
                          [](const auto& each) { return each.param; });
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "corank/symbolic/sets/singularity_system.h"
 #include "corank/tests/cover_lookup.h"
 #include "corank/tests/models/given_rates.h"
+#include "corank/tests/seeds.h"
 
 namespace corank {
 namespace {
@@ -103,8 +104,10 @@ TEST(Unit, OfLengthChangesNothingWhereTheVelocityEquationIsGiven) {
       };
       const Cover metres = solved("1", 1);
       const System described = system(model, rates, lengths, "1", set);
-      expect_same_places(metres, solved("1/1000", 1e-3), described, 1e-3, kSigma);
-      expect_same_places(metres, solved("1000", 1e3), described, 1e3, kSigma);
+      if (set == SingularitySet::forward || test::long_run())
+        expect_same_places(metres, solved("1/1000", 1e-3), described, 1e-3, kSigma);
+      if (set == SingularitySet::inverse || test::long_run())
+        expect_same_places(metres, solved("1000", 1e3), described, 1e3, kSigma);
     }
 }
 

@@ -1,5 +1,7 @@
 """Searches on a cluster of worker processes come to corank solve's boxes, whatever happens to the processes."""
 
+import contextlib
+import io
 import json
 import os
 import pathlib
@@ -19,9 +21,10 @@ pytest.importorskip("distributed", reason="no package distributed: clusters are 
 psutil = pytest.importorskip("psutil")
 
 from corank import cluster  # noqa: E402
+from corank.cluster import command  # noqa: E402
 from corank.cluster.units import Units  # noqa: E402
 
-SIGMA = 0.04
+SIGMA = 0.1
 QUICK = cluster.Plan(unit_seconds=0.02)
 
 
@@ -34,6 +37,22 @@ def client():
 @pytest.fixture(scope="module")
 def cspace(dextar):
     return dextar.solve("cspace", sigma=SIGMA)
+
+
+@pytest.fixture
+def command_line(client):
+    """A function that does here, by the client's workers, what the arguments say: exit status and standard error."""
+
+    def run(*arguments):
+        said, where = io.StringIO(), ["--scheduler", client.scheduler.address]
+        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+            try:
+                status = command.main(["solve", "--quiet", *([] if "--scheduler" in arguments else where), *arguments])
+            except SystemExit as usage:
+                status = usage.code
+        return status, said.getvalue()
+
+    return run
 
 
 def expect_same(one, other):
@@ -69,9 +88,12 @@ def test_two_workers_make_the_boxes_of_one_process(client, dextar, models):
 
 
 def test_a_default_sigma_proof_and_points_are_those_of_one_process(client, dextar, three_slider):
-    one, other = dextar.solve("forward", proof=True), dextar.solve("forward", proof=True, client=client)
+    one, other = dextar.solve("forward"), dextar.solve("forward", client=client)
     expect_same(one, other)
-    assert one.sigma == other.sigma and other.verify().complete
+    assert one.sigma == other.sigma
+    one, other = (dextar.solve("forward", sigma=0.1, proof=True, client=c) for c in (None, client))
+    expect_same(one, other)
+    assert other.verify().complete
     one, other = three_slider.solve("inverse", digits=30), three_slider.solve("inverse", digits=30, client=client)
     assert [p.decimals for p in one.points] == [p.decimals for p in other.points] and one.points
 
@@ -191,35 +213,24 @@ def test_a_limit_in_one_of_several_searches_leaves_the_others_pending(client, mo
     assert len(run._core.parts) > 1
 
 
-def test_what_a_limit_has_left_goes_on_from_the_result_and_from_the_checkpoint(models, cspace, tmp_path):
+def test_what_a_limit_has_left_goes_on_from_the_result_and_from_the_checkpoint(command_line, models, cspace, tmp_path):
     program = [sys.executable, "-m", "corank.cluster", "solve", "--workers", "1", "--quiet", "--unit-time", "0.02"]
     question = [str(models / "dextar.cuik"), "--set", "cspace", "--sigma", str(SIGMA), "-o", str(tmp_path / "part.h5")]
-
-    def run(*arguments):
-        return subprocess.run([*program, *arguments], capture_output=True, text=True, check=False)
-
-    done = run(*question, "--max-boxes", "1500")
+    done = subprocess.run([*program, *question, "--max-boxes", "1500"], capture_output=True, text=True, check=False)
     assert done.returncode == 3 and "stopped by the box limit" in done.stderr
     assert f"--resume {tmp_path / 'part.h5'}" in done.stderr
     expect_ended(corank.open(tmp_path / "part.h5"), "the box limit")
     # From the result: another limit, which leaves a checkpoint; from that to the end.
     kept = tmp_path / "kept"
-    nothing = run(*question[:-1], str(tmp_path / "none.h5"), "--time-limit", "1e-9", "--checkpoint", str(kept))
-    assert nothing.returncode == 3 and "stopped by the time limit" in nothing.stderr
-    assert "to go on" not in nothing.stderr and not kept.exists()
-    done = run(
-        "--resume",
-        str(tmp_path / "part.h5"),
-        "-o",
-        str(tmp_path / "more.h5"),
-        "--max-boxes",
-        "500",
-        "--checkpoint",
-        str(kept),
-    )
-    assert done.returncode == 3 and kept.exists() and f"--resume {kept}" in done.stderr
-    done = run("--resume", str(kept), "-o", str(tmp_path / "whole.h5"))
-    assert done.returncode == 0 and not kept.exists(), done.stderr
+    to_none = [*question[:-1], str(tmp_path / "none.h5")]
+    status, error = command_line(*to_none, "--time-limit", "1e-9", "--checkpoint", str(kept))
+    assert status == 3 and "stopped by the time limit" in error
+    assert "to go on" not in error and not kept.exists()
+    to_more = ["--resume", str(tmp_path / "part.h5"), "-o", str(tmp_path / "more.h5"), "--unit-time", "0.02"]
+    status, error = command_line(*to_more, "--max-boxes", "500", "--checkpoint", str(kept))
+    assert status == 3 and kept.exists() and f"--resume {kept}" in error
+    status, error = command_line("--resume", str(kept), "-o", str(tmp_path / "whole.h5"), "--unit-time", "0.02")
+    assert status == 0 and not kept.exists(), error
     expect_same(cspace, corank.open(tmp_path / "whole.h5"))
     assert corank.open(tmp_path / "part.h5").stopped
     # One process goes on from the result as well.
@@ -253,7 +264,9 @@ def test_a_full_disk_leaves_the_last_good_checkpoint(dextar, tmp_path, capfd):
     assert cluster.Checkpoints.read(tmp_path / "kept").next_state(0)
 
 
-def test_a_killed_client_resumes_to_the_same_file(models, cspace, tmp_path):
+def test_a_killed_client_resumes_to_the_same_file(command_line, dextar, models, tmp_path):
+    sigma = 0.04  # more boxes: it is killed before its end
+    cspace = dextar.solve("cspace", sigma=sigma)
     kept, result = tmp_path / "kept", tmp_path / "r.h5"
     program = [
         sys.executable,
@@ -273,7 +286,7 @@ def test_a_killed_client_resumes_to_the_same_file(models, cspace, tmp_path):
         "--set",
         "cspace",
         "--sigma",
-        str(SIGMA),
+        str(sigma),
         "-o",
         str(result),
         "--checkpoint",
@@ -289,8 +302,8 @@ def test_a_killed_client_resumes_to_the_same_file(models, cspace, tmp_path):
     first.wait()
     assert not result.exists()
     shutil.copy(kept, tmp_path / "copy")
-    done = subprocess.run(program + ["--resume", str(kept)], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    status, error = command_line("--resume", str(kept), "--unit-time", "0.02", "--every", "0.01")
+    assert status == 0, error
     assert not kept.exists()
     expect_same(cspace, corank.open(result))
     cspace.save(tmp_path / "one.h5")
@@ -318,12 +331,12 @@ def test_a_run_goes_on_from_its_checkpoint_and_another_question_does_not(client,
         cluster.solve(dextar, client, "forward", sigma=SIGMA, checkpoints=known)
 
 
-def test_bad_input_and_usage_have_the_exit_statuses_of_corank_solve(models):
-    program = [sys.executable, "-m", "corank.cluster", "solve", str(models / "dextar.cuik"), "--set", "cspace"]
-    done = subprocess.run(program + ["--tls-cert", "c.pem"], capture_output=True, text=True, check=False)
-    assert done.returncode == 1 and "TLS needs the files of the authority" in done.stderr
-    done = subprocess.run(program + ["--resume", "kept"], capture_output=True, text=True, check=False)
-    assert done.returncode == 2 and "expected MODEL, or --resume FILE" in done.stderr
+def test_bad_input_and_usage_have_the_exit_statuses_of_corank_solve(command_line, models):
+    question = [str(models / "dextar.cuik"), "--set", "cspace"]
+    status, error = command_line(*question, "--tls-cert", "c.pem")
+    assert status == 1 and "TLS needs the files of the authority" in error
+    status, error = command_line(*question, "--resume", "kept")
+    assert status == 2 and "expected MODEL, or --resume FILE" in error
 
 
 def certificate(folder, name, authority=None):
@@ -343,7 +356,7 @@ def certificate(folder, name, authority=None):
 
 
 @pytest.mark.skipif(shutil.which("openssl") is None, reason="no openssl: there is no certificate to test TLS with")
-def test_by_tls_only_who_has_a_certificate_of_the_authority_is_served(models, cspace, tmp_path):
+def test_by_tls_only_who_has_a_certificate_of_the_authority_is_served(command_line, models, cspace, tmp_path):
     certificate(tmp_path, "authority")
     mine, others = certificate(tmp_path, "me", "authority"), certificate(tmp_path, "other")
     authority = str(tmp_path / "authority.pem")
@@ -365,20 +378,12 @@ def test_by_tls_only_who_has_a_certificate_of_the_authority_is_served(models, cs
         address = json.loads(known.read_text())["address"]
         assert address.startswith("tls://127.0.0.1:")
         result = tmp_path / "r.h5"
-        program = [
-            sys.executable,
-            "-m",
-            "corank.cluster",
-            "solve",
-            str(models / "dextar.cuik"),
-            "--set",
-            "cspace",
-            "--quiet",
-        ]
-        program += ["--sigma", str(SIGMA), "-o", str(result), "--scheduler", address]
+        question = [str(models / "dextar.cuik"), "--set", "cspace", "--sigma", str(SIGMA), "-o", str(result)]
+        question += ["--scheduler", address]
         for refused in ([], ["--tls-ca", authority, *others]):
-            done = subprocess.run(program + refused, capture_output=True, text=True, check=False)
-            assert done.returncode == 1 and "no scheduler at tls://" in done.stderr and not result.exists()
+            status, error = command_line(*question, *refused)
+            assert status == 1 and "no scheduler at tls://" in error and not result.exists()
+        program = [sys.executable, "-m", "corank.cluster", "solve", "--quiet", *question]
         done = subprocess.run([*program, "--tls-ca", authority, *mine], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
         expect_same(cspace, corank.open(result))

@@ -2,12 +2,16 @@
 
 import os
 import pathlib
+import signal
 
 import pytest
 
 import corank
 
 SOURCE = pathlib.Path(os.environ["CORANK_SOURCE_DIR"])
+
+# A shell ignores Ctrl-C in what it runs in the background, and processes inherit that.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")

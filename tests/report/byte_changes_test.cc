@@ -97,7 +97,7 @@ void show(const result::Result& result, const result::Verification& verification
 
 int changes() {
   const char* const given = std::getenv("CORANK_BYTE_CHANGES");
-  return given ? std::atoi(given) : 120;
+  return given ? std::atoi(given) : 40;
 }
 
 class ByteChanges : public testing::TestWithParam<Kind> {};

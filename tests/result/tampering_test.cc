@@ -146,6 +146,7 @@ struct Tampering {
   const char* reason;  // part of what is said of it
   const Result& (*result)();
   std::function<void(Result&)> change;
+  bool needs_proof = false;  // what it changes shows in the proof alone
 };
 
 // The isolated point (−1, −1, 0).
@@ -197,7 +198,7 @@ const std::vector<Tampering>& tamperings() {
            for (CoverBox& b : *list)
              if (b.verdict == Verdict::exact) b.verdict = Verdict::isolated;
        }},
-      {"a box deleted", "out of range", curve, [](Result& r) { r.cover.boxes.erase(r.cover.boxes.begin() + 5); }},
+      {"a box deleted", "out of range", curve, [](Result& r) { r.cover.boxes.erase(r.cover.boxes.begin() + 5); }, true},
       {"a box deleted and its leaves called empty", "not shown to have no solution", curve,
        [](Result& r) {
          drop_leaves(r, r.cover.boxes.size() - 1);
@@ -302,7 +303,8 @@ const std::vector<Tampering>& tamperings() {
          const auto last = std::find_if(steps.rbegin(), steps.rend(),
                                         [](const ReductionStep& s) { return std::holds_alternative<Elimination>(s); });
          steps.erase(std::next(last).base());
-       }},
+       },
+       true},
       {"another dimension", "the set has dimension 1, not 2", curve, [](Result& r) { r.cover.dimension = 2; }},
       {"a leaf of the proof dropped", "the script ends early", curve,
        [](Result& r) { change_proof(r, [](Proof& p) { p.steps.pop_back(); }); }},
@@ -387,21 +389,28 @@ const std::vector<Tampering>& tamperings() {
   return all;
 }
 
-class Tampered : public testing::TestWithParam<std::size_t> {};
-
-TEST_P(Tampered, IsRejected) {
-  const Tampering& tampering = tamperings()[GetParam()];
-  Result result = tampering.result();
-  tampering.change(result);
-  const std::string reasons = rejection(result);
-  EXPECT_THAT(reasons, testing::HasSubstr(tampering.reason)) << tampering.name;
+// One process for each result, which is dear to make.
+void expect_all_rejected(const Result& (*result)()) {
+  const Result& untouched = result();
+  EXPECT_EQ(rejection(untouched), "");
+  std::size_t tried = 0;
+  for (const Tampering& tampering : tamperings()) {
+    if (tampering.result != result) continue;
+    ++tried;
+    Result changed = untouched;
+    tampering.change(changed);
+    // The proof takes most of the time, and what it does not show is rejected without it.
+    if (changed.cover.proof == untouched.cover.proof && !tampering.needs_proof) changed.cover.proof = nullptr;
+    EXPECT_THAT(rejection(changed), testing::HasSubstr(tampering.reason)) << tampering.name;
+  }
+  EXPECT_GE(tried, 5u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Tampered, testing::Range(std::size_t{0}, tamperings().size()));
+TEST(Tampered, PointsAreRejectedAndUntouchedOnesAccepted) { expect_all_rejected(points); }
 
-TEST(Untouched, IsAccepted) {
-  for (const auto& result : {points, curve, crossing}) EXPECT_EQ(rejection(result()), "");
-}
+TEST(Tampered, CurvesAreRejectedAndUntouchedOnesAccepted) { expect_all_rejected(curve); }
+
+TEST(Tampered, CrossingsAreRejectedAndUntouchedOnesAccepted) { expect_all_rejected(crossing); }
 
 // What write_result derives from the boxes, changed in the file itself.
 TEST(TamperedAttributes, AreRejected) {

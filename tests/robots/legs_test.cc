@@ -140,7 +140,7 @@ TEST(LegsInOnePiece, AskForNoCoordinatesOfTheirLinks) {
 // Configurations of the legs are configurations of their links, and the other way about.
 TEST(LegsInOnePiece, HaveTheConfigurationsOfTheirLinks) {
   int found = 0;
-  for (unsigned seed = 1; seed <= test::seeds(10); ++seed)
+  for (unsigned seed = 1; seed <= test::seeds(6); ++seed)
     for (const bool with_shapes : {false, true}) {
       const Platform platform(seed);
       const kinematics::Assembly assembly = kinematics::assemble(platform.robot(with_shapes));
@@ -185,26 +185,29 @@ TEST(LegsInOnePiece, AreSingularWhereTheirScrewsAre) {
       if (!x) continue;
       const MatrixXd motions = test::kernel(numeric.jacobian(*x));
       VectorXd step = 0.02 * motions.col(way % motions.cols());
+      double at_x = determinant(*x);
       for (int k = 0; k < 60; ++k) {
         const auto next = numeric.solution(*x + step);
         if (!next || (*next - *x).norm() > 0.1) break;
-        if (determinant(*x) * determinant(*next) < 0) {
+        const double at_next = determinant(*next);
+        if (at_x * at_next < 0) {
           VectorXd from = *x, to = *next;
-          for (int halving = 0; halving < 40; ++halving) {
+          for (int halving = 0; halving < 30; ++halving) {
             const auto middle = numeric.solution(0.5 * (from + to));
             if (!middle) break;
-            (determinant(from) * determinant(*middle) < 0 ? to : from) = *middle;
+            (at_x * determinant(*middle) < 0 ? to : from) = *middle;
           }
           if ((to - from).norm() < 1e-8) {
             ++crossings;
             EXPECT_LT(hold(from), 1e-5) << "seed " << seed;
           }
-        } else if (std::fabs(determinant(*x)) > 1e-3) {
+        } else if (std::fabs(at_x) > 1e-3) {
           ++regular;
           EXPECT_GT(hold(*x), 1e-9);
         }
         step = 0.02 * (*next - *x).normalized();
         x = next;
+        at_x = at_next;
       }
     }
   }

@@ -21,7 +21,7 @@ const std::array<JointKind, 5> kKinds{JointKind::revolute, JointKind::prismatic,
                                       JointKind::cylindrical};
 
 TEST(PlantedRobots, SatisfyTheirEquationsWhereTheyWerePlanted) {
-  const unsigned seeds = test::seeds(15);
+  const unsigned seeds = test::seeds(5);
   int checked = 0;
   for (unsigned seed = 0; seed < seeds; ++seed) {
     std::mt19937 random(seed);

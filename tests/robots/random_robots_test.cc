@@ -184,7 +184,7 @@ void examine(unsigned seed, Count& count) {
 }
 
 TEST(RandomRobots, FitTogetherWhereverTheirEquationsHoldAndAreFoundWhereTheyWerePlanted) {
-  const unsigned robots = number_from("CORANK_RANDOM_ROBOTS", 60), first = number_from("CORANK_RANDOM_SEED", 1);
+  const unsigned robots = number_from("CORANK_RANDOM_ROBOTS", 20), first = number_from("CORANK_RANDOM_SEED", 1);
   Count count;
   for (unsigned seed = first; seed < first + robots; ++seed) {
     try {

@@ -50,6 +50,7 @@ int expect_same_when_resumed(const System& system, Options options, int one_in, 
     const Prepared prepared = prepared_with(system, options);
     Control control;
     const Cover whole = solve(prepared, control);
+    EXPECT_TRUE(!whole.proof || check::check(system, whole).proof.verified);
     for (const int threads : {1, 3}) {
       Prepared same = prepared_from(to_bytes(prepared));
       same.options.threads = threads;
@@ -69,7 +70,6 @@ int expect_same_when_resumed(const System& system, Options options, int one_in, 
         cut_sheets += journal.cut_sheets;
       }
       expect_same(whole, *cover);
-      EXPECT_TRUE(!cover->proof || check::check(system, *cover).proof.verified);
     }
   }
   return cut_sheets;
@@ -95,36 +95,43 @@ TEST(Resuming, ASelfMotionMakesTheCoverOfOneSearch) {
 
 TEST(Resuming, PointsMakeTheCoverOfOneSearch) { expect_same_when_resumed(circle_and_diagonal().system(), {}, 3, 4); }
 
-// What a limit ends at any box, or at any look at the clock, among the sheets as well.
-void expect_same_after_limits(const System& system, Options options, std::vector<Control::Limits> limits) {
+// What limits end at any box, or at any look at the clock, among the sheets as well: searches by some limits, one after the
+// other, and then by others.
+void expect_same_after_limits(const System& system, Options options,
+                              const std::vector<std::vector<Control::Limits>>& searches) {
   options.proof = true;
   const Prepared prepared = prepared_with(system, options);
   Control control;
   const Cover whole = solve(prepared, control);
-  std::optional<Cover> cover;
-  std::string bytes;
-  for (std::size_t run = 0; !cover; ++run) {
-    Control again(run < limits.size() ? limits[run] : Control::Limits{});
-    RandomJournal journal(1, 1'000'000, 1000);
-    std::optional<SearchState> from;
-    if (!bytes.empty()) from = state_from(bytes, prepared);
-    cover = solve_on(prepared, again, &journal, std::move(from));
-    if (again.ending()) {
-      EXPECT_EQ(journal.last, Moment::ended);
-      bytes = journal.bytes;
-      cover.reset();
+  EXPECT_TRUE(check::check(system, whole).proof.verified);
+  for (const std::vector<Control::Limits>& limits : searches) {
+    std::optional<Cover> cover;
+    std::string bytes;
+    for (std::size_t run = 0; !cover; ++run) {
+      Control again(run < limits.size() ? limits[run] : Control::Limits{});
+      RandomJournal journal(1, 1'000'000, 1000);
+      std::optional<SearchState> from;
+      if (!bytes.empty()) from = state_from(bytes, prepared);
+      cover = solve_on(prepared, again, &journal, std::move(from));
+      if (again.ending()) {
+        EXPECT_EQ(journal.last, Moment::ended);
+        bytes = journal.bytes;
+        cover.reset();
+      }
     }
+    expect_same(whole, *cover);
   }
-  expect_same(whole, *cover);
-  EXPECT_TRUE(check::check(system, *cover).proof.verified);
 }
 
 TEST(Resuming, WhatBoxLimitsHaveEndedMakesTheCoverOfOneSearch) {
   Options options;
   options.sigma = 0.3;
+  std::vector<std::vector<Control::Limits>> searches;
   for (const std::uint64_t boxes : {1u, 17u, 200u})
-    expect_same_after_limits(torus().system(), options, {{.boxes = boxes}, {.boxes = 2 * boxes}, {.boxes = boxes}});
-  expect_same_after_limits(lemniscate(), options, {{.boxes = 5}, {.boxes = 50}});
+    searches.push_back({{.boxes = boxes}, {.boxes = 2 * boxes}, {.boxes = boxes}});
+  expect_same_after_limits(torus().system(), options, searches);
+  const std::vector<Control::Limits> two{{.boxes = 5}, {.boxes = 50}};
+  expect_same_after_limits(lemniscate(), options, {two});
 }
 
 TEST(Resuming, WhatTheClockHasEndedAnywhereMakesTheCoverOfOneSearch) {
@@ -135,15 +142,16 @@ TEST(Resuming, WhatTheClockHasEndedAnywhereMakesTheCoverOfOneSearch) {
     return Control::Limits{.time = 1, .clock = [count, glances] { return (*count)++ > glances ? 10.0 : 0.0; }};
   };
   // Some of these in the search, some among the sheets.
+  std::vector<std::vector<Control::Limits>> searches, shorter;
   for (const int glances : {3, 300, 900, 1500, 2200})
-    expect_same_after_limits(torus().system(), options, {clock_of(glances), clock_of(3 * glances / 2), clock_of(40)});
-  for (const int glances : {2, 30, 60, 90}) expect_same_after_limits(lemniscate(), options, {clock_of(glances)});
+    searches.push_back({clock_of(glances), clock_of(3 * glances / 2), clock_of(40)});
+  expect_same_after_limits(torus().system(), options, searches);
+  for (const int glances : {2, 30, 60, 90}) shorter.push_back({clock_of(glances)});
+  expect_same_after_limits(lemniscate(), options, shorter);
+  Control control;
+  const Prepared prepared = prepared_with(plane_and_line(), options);
+  const Cover whole = solve(prepared, control);
   for (const int glances : {20, 100, 500, 2000}) {
-    Options coarse = options;
-    coarse.sigma = 0.2;
-    Control control;
-    const Prepared prepared = prepared_with(plane_and_line(), coarse);
-    const Cover whole = solve(prepared, control);
     Control limited(clock_of(glances));
     RandomJournal journal(1, 1'000'000, 1000);
     solve_on(prepared, limited, &journal);

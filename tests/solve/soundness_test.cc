@@ -370,18 +370,24 @@ void check(unsigned seed, double tolerance, Tally& tally) {
   }
 }
 
-void check_many(double tolerance, unsigned count) {
+// `slow`: a seed that takes longer than all others together, for a long run.
+void check_many(double tolerance, unsigned count, std::optional<unsigned> slow = {}) {
   // CORANK_SEEDS=20000 ./solve_test --gtest_filter='Soundness.*' looks further.
   const unsigned seeds = test::seeds(count);
   Tally tally;
-  for (unsigned seed = 1; seed <= seeds; ++seed) check(seed, tolerance, tally);
-  EXPECT_GT(tally.complete, static_cast<int>(seeds) * 9 / 10);
-  EXPECT_GT(tally.proven, static_cast<int>(seeds) / 2);
+  int tried = 0;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    if (seed == slow && !test::long_run()) continue;
+    check(seed, tolerance, tally);
+    ++tried;
+  }
+  EXPECT_GT(tally.complete, tried * 9 / 10);
+  EXPECT_GT(tally.proven, tried / 2);
 }
 
 TEST(Soundness, NoClaimAboutARandomSystemIsRefuted) { check_many(0, 100); }
 
-TEST(Soundness, NoClaimAboutAnyChoiceWithinTheToleranceIsRefuted) { check_many(1e-3, 25); }
+TEST(Soundness, NoClaimAboutAnyChoiceWithinTheToleranceIsRefuted) { check_many(1e-3, 25, 6); }
 
 }  // namespace
 }  // namespace corank::solve

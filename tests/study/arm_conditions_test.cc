@@ -76,7 +76,7 @@ double value_of(const symbolic::Component& part, const std::map<std::string, dou
 TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
   constexpr double kZero = 1e-7;
   int arms = 0, on_parts = 0, on_determinants = 0, with_vectors = 0;
-  for (unsigned seed = 1; seed <= test::seeds(20); ++seed) {
+  for (unsigned seed = 1; seed <= test::seeds(10); ++seed) {
     SCOPED_TRACE(seed);
     const RandomArm arm(seed);
     std::mt19937 random(seed);

@@ -44,15 +44,21 @@ symbolic::Mechanism held_arm(double a, double b, double r, double at) {
   return symbolic::parse_model(text, "arm.cuik");
 }
 
-// What an empty set says of the robot is confirmed, after a file, too.
-void expect_confirmed(const result::Result& result, bool expected) {
-  EXPECT_EQ(result::assembled(result), std::optional(expected));
-  EXPECT_EQ(result::sample(result).has_value(), expected);
+result::Result through_a_file(const result::Result& result) {
   const auto path = std::filesystem::path(testing::TempDir()) /  // of each test another: they may run at the same time
                     fmt::format("corank_{}.h5", testing::UnitTest::GetInstance()->current_test_info()->name());
   result::write_result(path, result);
-  const result::Result read = result::read_result(path);
-  EXPECT_EQ(result::to_json(read), result::to_json(result));
+  return result::read_result(path);
+}
+
+// What an empty set says of the robot is confirmed, after a file, too.
+void expect_confirmed(const result::Result& result, bool expected, bool in_a_file = true) {
+  EXPECT_EQ(result::assembled(result), std::optional(expected));
+  EXPECT_EQ(result::sample(result).has_value(), expected);
+  const result::Result read = in_a_file ? through_a_file(result) : result;
+  if (in_a_file) {
+    EXPECT_EQ(result::to_json(read), result::to_json(result));
+  }
   const result::Verification verification = result::verify(read);
   EXPECT_TRUE(verification.verified()) << result::to_table(verification, read);
   if (!result.assembly.empty()) {
@@ -80,7 +86,7 @@ TEST(Assembly, OfFourBarsIsWhatTheTriangleInequalitySays) {
         continue;
       }
       SCOPED_TRACE(fmt::format("{} {} {} {}", a, b, c, d));
-      expect_confirmed(result, closes);
+      expect_confirmed(result, closes, empty % 4 == 0);
       ++empty;
       apart += !closes;
     }
@@ -102,7 +108,7 @@ TEST(Assembly, OfHeldArmsIsWhatTheTriangleInequalitySays) {
     const result::Result result = answer({held_arm(a, b, r, angle(random)), SingularitySet::cspace_singular});
     if (!result.cover.boxes.empty()) continue;
     SCOPED_TRACE(fmt::format("{} {} {}", a, b, r));
-    expect_confirmed(result, room > 0);
+    expect_confirmed(result, room > 0, empty % 4 == 0);
     ++empty;
     apart += room < 0;
   }
@@ -142,7 +148,7 @@ TEST(Assembly, OfThreeLegsAtAPoseIsWhatTheirTriangleInequalitiesSay) {
     const result::Result result = answer({robot, SingularitySet::cspace_singular});
     if (!result.cover.boxes.empty()) continue;
     SCOPED_TRACE(trial);
-    expect_confirmed(result, room > 0);
+    expect_confirmed(result, room > 0, empty % 4 == 0);
     ++empty;
     apart += room < 0;
   }

@@ -42,7 +42,9 @@ bool is_in_some_box(const result::Result& result, const std::map<std::string, do
 TEST(ParallelogramSets, AreProvenAtFlatPositionsOnBothBranches) {
   const Model leg = parse_model({kLeg, "leg.cuik", "."});
   ASSERT_EQ(leg.assembly->parallelograms.size(), 1u);
-  const result::Result result = answer({leg.mechanism, symbolic::SingularitySet::forward});
+  Options coarse;
+  coarse.search.sigma = 1;
+  const result::Result result = answer({leg.mechanism, symbolic::SingularitySet::forward}, coarse);
   EXPECT_TRUE(result.cover.complete());
   ASSERT_FALSE(result.cover.boxes.empty());
   for (const CoverBox& box : result.cover.boxes)

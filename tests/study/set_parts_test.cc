@@ -39,20 +39,16 @@ double value_of(const Polynomial& f, const VectorXd& x) {
   return sum;
 }
 
-double derivative(const Polynomial& f, const VectorXd& x, int variable) {
-  double sum = 0;
-  for (const Monomial& m : f.monomials) {
-    double product = m.enclosure.mid();
-    bool occurs = false;
-    for (const Factor& factor : m.factors) {
-      const bool own = factor.variable == variable;
-      occurs = occurs || own;
-      product *=
-          own ? factor.power * std::pow(x[factor.variable], factor.power - 1) : std::pow(x[factor.variable], factor.power);
+// By the variables that occur in it alone: there are many others.
+void add_derivatives(const Polynomial& f, const VectorXd& x, MatrixXd& jacobian, Eigen::Index row) {
+  for (const Monomial& m : f.monomials)
+    for (const Factor& by : m.factors) {
+      double product = m.enclosure.mid();
+      for (const Factor& factor : m.factors)
+        product *= &factor == &by ? factor.power * std::pow(x[factor.variable], factor.power - 1)
+                                  : std::pow(x[factor.variable], factor.power);
+      jacobian(row, by.variable) += product;
     }
-    if (occurs) sum += product;
-  }
-  return sum;
 }
 
 // A solution near a random start, by Gauss–Newton steps; nothing where these do not converge inside the domain.
@@ -65,11 +61,11 @@ std::optional<VectorXd> sample(const System& system, std::mt19937_64& random) {
   }
   for (int step = 0; step < 60; ++step) {
     VectorXd f(m);
-    MatrixXd jacobian(m, n);
+    MatrixXd jacobian = MatrixXd::Zero(m, n);
     for (Eigen::Index i = 0; i < m; ++i) {
       const Polynomial& equation = system.equations[static_cast<std::size_t>(i)];
       f[i] = value_of(equation, x);
-      for (Eigen::Index j = 0; j < n; ++j) jacobian(i, j) = derivative(equation, x, static_cast<int>(j));
+      add_derivatives(equation, x, jacobian, i);
     }
     if (f.lpNorm<Eigen::Infinity>() < 1e-11) {
       for (Eigen::Index j = 0; j < n; ++j)
@@ -145,7 +141,7 @@ TEST_P(SetParts, AreTheSetNoMoreAndNoLess) {
   // What Newton's method finds of the whole, with its kernel vector, is a solution of some part.
   const System whole = system(question);
   int found = 0;
-  for (int trial = 0; trial < 300 && found < 30; ++trial) {
+  for (int trial = 0; trial < 300 && found < 10; ++trial) {
     const auto x = sample(whole, random);
     if (!x) continue;
     ++found;
@@ -363,9 +359,8 @@ class SetPartsFile : public testing::Test {
       std::filesystem::temp_directory_path() / ("corank-set-parts-" + std::to_string(getpid()) + ".h5");
 };
 
-TEST_F(SetPartsFile, ComesBackAndIsVerified) { EXPECT_EQ(rejection(legs()), ""); }
-
-TEST_F(SetPartsFile, IsRejectedWithoutAPartOrWithAnother) {
+TEST_F(SetPartsFile, ComesBackVerifiedAndIsRejectedWithoutAPartOrWithAnother) {
+  EXPECT_EQ(rejection(legs()), "");
   EXPECT_THAT(rejection_of([](result::Result& r) { r.parts.pop_back(); }), testing::HasSubstr("the parts are not those"));
   EXPECT_THAT(rejection_of([](result::Result& r) { std::swap(r.parts[0], r.parts[1]); }),
               testing::HasSubstr("the parts are not those"));

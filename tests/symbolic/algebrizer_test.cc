@@ -9,12 +9,12 @@ namespace {
 
 using ::testing::ElementsAre;
 
-System reference(const std::string& name, SingularitySet set, std::optional<KernelSide> side = {}) {
+System reference_set(const std::string& name, SingularitySet set, std::optional<KernelSide> side = {}) {
   return algebrize(singularity_system(read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + name + ".cuik"), set, side));
 }
 
 TEST(Algebrizer, MakesDextarsForwardSystem) {
-  const System s = reference("dextar", SingularitySet::forward);
+  const System s = reference_set("dextar", SingularitySet::forward);
   std::vector<std::string> names;
   for (const auto& variable : s.variables) names.push_back(variable.name);
   EXPECT_THAT(names, ElementsAre("J3x", "J3y", "c_theta2", "s_theta2", "c_theta3", "s_theta3", "c_theta4", "s_theta4",
@@ -42,12 +42,12 @@ TEST(Algebrizer, MakesDextarsForwardSystem) {
 }
 
 TEST(Algebrizer, MakesTheThreeSlidersSystems) {
-  const System s = reference("three_slider", SingularitySet::inverse);
+  const System s = reference_set("three_slider", SingularitySet::inverse);
   EXPECT_THAT(canonical(s.equations),
               ElementsAre(" + -1 + 1·x0^2 + 1·x2^2", " + -16/25 + 1·x1^2 + 1·x2^2",  //
                           " + 2·x0^1·x3^1 + 2·x2^1·x4^1", " + 2·x2^1·x4^1", " + -1 + 1·x3^2 + 1·x4^2"));
   EXPECT_EQ(s.dimension(), 0);
-  EXPECT_EQ(reference("three_slider", SingularitySet::cspace_singular).equations.size(), 6u);
+  EXPECT_EQ(reference_set("three_slider", SingularitySet::cspace_singular).equations.size(), 6u);
 }
 
 TEST(Algebrizer, GivesTheSameSystemForAMechanismBuiltInCpp) {
@@ -60,7 +60,7 @@ TEST(Algebrizer, GivesTheSameSystemForAMechanismBuiltInCpp) {
   m.outputs({y_b});
   for (const auto set :
        {SingularitySet::cspace, SingularitySet::forward, SingularitySet::inverse, SingularitySet::cspace_singular}) {
-    const System built = algebrize(singularity_system(m, set)), read = reference("three_slider", set);
+    const System built = algebrize(singularity_system(m, set)), read = reference_set("three_slider", set);
     EXPECT_EQ(built.name, read.name);
     EXPECT_EQ(canonical(built.equations), canonical(read.equations));
     EXPECT_EQ(canonical(built.inequalities), canonical(read.inequalities));

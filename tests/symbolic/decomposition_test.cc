@@ -173,7 +173,7 @@ TEST(Decomposition, LosesNoPlantedFactorAndNoPartIsFalse) {
   constexpr long double kZero = 1e-9L;
   // A determinant's zero of order k is found to ε^(1/k), with ε near 1e-19; a factor may be planted six times.
   constexpr long double kNearZero = 1e-3L;
-  const unsigned seeds = test::seeds(120);
+  const unsigned seeds = test::seeds(40);
   int in_parts = 0, on_parts = 0, on_factors = 0, crossings = 0, ties = 0;
   for (unsigned seed = 0; seed < seeds; ++seed) {
     Planted planted(seed);

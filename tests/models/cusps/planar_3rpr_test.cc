@@ -46,7 +46,7 @@ struct Robot {
 };
 
 std::vector<Place> cusps_of(const Robot& robot, double lower2 = 1) {
-  constexpr int kGrid = 60;
+  constexpr int kGrid = 30;
   constexpr double h = 1e-5;
   std::vector<Pair> found;
   for (int i = 0; i < kGrid * kGrid; ++i) {

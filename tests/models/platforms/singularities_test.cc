@@ -19,12 +19,15 @@
 #include "corank/study/model.h"
 #include "corank/study/question.h"
 #include "corank/tests/models/platforms/solved.h"
+#include "corank/tests/seeds.h"
 
 namespace corank {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+const std::size_t kSamples = test::long_run() ? 2000 : 500;
 
 Solved solved(const std::string& name) {
   study::Question question;
@@ -112,8 +115,8 @@ TEST(PlatformSingularities, OfAStewartPlatformInOneOrientationAreEnclosedAndProv
     }
     return lines.determinant();
   };
-  const auto samples = zeros({-1, -1, 0.2}, {1, 1, 2}, determinant, 2000);
-  ASSERT_EQ(samples.size(), 2000u);
+  const auto samples = zeros({-1, -1, 0.2}, {1, 1, 2}, determinant, kSamples);
+  ASSERT_EQ(samples.size(), kSamples);
   std::vector<std::vector<double>> points;
   for (const Vector3d& p : samples) points.push_back({p.x(), p.y(), p.z()});
   EXPECT_EQ(count_lost(s, {"P_x", "P_y", "P_z"}, points), 0u);
@@ -147,14 +150,14 @@ TEST(PlatformSingularities, OfADeltaInOnePlaneAreEnclosedAndProven) {
     };
     const Vector3d low(-1.2, -1.2, -0.5), high(1.2, 1.2, -0.5);
     if (zeros(low, high, determinant, 1, 20'000).empty()) continue;
-    for (const Vector3d& p : zeros(low, high, determinant, 2000, 200'000)) {
+    for (const Vector3d& p : zeros(low, high, determinant, kSamples, 200'000)) {
       if (!determinant(p)) continue;
       std::vector<double> point{p.x(), p.y()};
       for (const double angle : angles) point.insert(point.end(), {std::cos(angle), std::sin(angle)});
       points.push_back(point);
     }
   }
-  EXPECT_GE(points.size(), 2000u);
+  EXPECT_GE(points.size(), kSamples);
   EXPECT_EQ(count_lost(s, {"x", "y", "c_a1", "s_a1", "c_a2", "s_a2", "c_a3", "s_a3"}, points), 0u);
 }
 
@@ -205,8 +208,8 @@ TEST(PlatformSingularities, OfA3RpsAtOneHeightAreEnclosedAndProven) {
     }
     return lines.determinant();
   };
-  const auto samples = zeros({0, -std::numbers::pi, 0}, {std::numbers::pi, std::numbers::pi, 0}, determinant, 2000);
-  EXPECT_GE(samples.size(), 2000u);
+  const auto samples = zeros({0, -std::numbers::pi, 0}, {std::numbers::pi, std::numbers::pi, 0}, determinant, kSamples);
+  EXPECT_GE(samples.size(), kSamples);
   std::vector<std::vector<double>> points;
   for (const Vector3d& q : samples) {
     const Pose p = pose(q.x(), q.y());
