@@ -152,6 +152,19 @@ Box SignCellTest::solution_over(const SheetCell& cell, const Box& region, Box si
   return sides;
 }
 
+bool SignCellTest::narrow(SheetCell& cell, const Box& region) {
+  Box middle = cell.sides;
+  std::vector<Interval> over;
+  for (const int f : cell.free) {
+    over.push_back(cell.sides[f]);
+    middle[f] = Interval(middle[f].mid());
+  }
+  const Sheet sheet = graph_over(solution_over(cell, region, std::move(middle)), cell.free, over);
+  if (!sheet.proven || !contains(region, sheet.image)) return false;
+  CORANK_CHECK(intersect(cell.sides, sheet.image));
+  return true;
+}
+
 Sheet SignCellTest::sheet_over(const SheetCell& cell) {
   return newton_prove(compiled_, preconditioner(cell.free, cell.sides), cell.sides, workspace_);
 }

@@ -73,6 +73,10 @@ class SignCellTest {
   /// Where the free sides are points of X_F: encloses the sheet's solution over them narrowly; `region`: the sheet's.
   /// Theorem: what newton_prove finds there is the sheet's solution if it lies in the region, which holds no other one.
   Box solution_over(const SheetCell& cell, const Box& region, Box sides);
+  /// Narrows the dependent sides to those of a sheet over X_F that is proven anew, about the solution over the middle;
+  /// false: none was. Where the sides are too wide for `bound`, whose steps contract only near a solution.
+  /// Theorem: one that newton_prove finds over X_F is the cell's if it lies in the region, which holds no other one.
+  bool narrow(SheetCell& cell, const Box& region);
   /// newton_prove over all of the cell's sides.
   Sheet sheet_over(const SheetCell& cell);
   /// Signs ±1 of the functions in the box; 0 where one is not known.

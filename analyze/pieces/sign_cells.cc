@@ -93,7 +93,20 @@ bool SignCells::is_covered_before(const SignCell& cell) const {
 const Box& SignCells::region(const SignCell& cell) const { return cover_.regions[cover_.boxes[cell.box].region]; }
 
 void SignCells::evaluate(SignCell& cell) {
+  const auto widest = [&] {
+    double most = 0;
+    for (std::size_t j = 0; j < cell.sides.size(); ++j)
+      if (std::ranges::find(cell.free, static_cast<int>(j)) == cell.free.end())
+        most = std::max(most, cell.sides[j].width() / proof_.compiled().scales()[j]);
+    return most;
+  };
+  const double before = widest();
   proof_.bound(cell, 2);
+  cell.resolved = resolve(cell);
+  // Of a part of a large sheet no step may contract; then halving would go on for nothing.
+  constexpr double kHardlyLess = 0.99;
+  if (cell.resolved || widest() < kHardlyLess * before || !proof_.narrow(cell, region(cell))) return;
+  proof_.bound(cell, 1);
   cell.resolved = resolve(cell);
 }
 

@@ -152,6 +152,7 @@ std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const I
 int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near) {
   const auto& branching = problem_.branching;
   find_settled(x);
+  if (std::ranges::all_of(settled_, [](bool settled) { return settled; })) settled_.clear();  // then all sides are alike
   const double width = relative_width(x);
   const bool noisy = contractor_.noisy() && width < kNoisySize;
   const bool surface = problem_.compiled.variables() == problem_.compiled.equations() + 2;

@@ -119,8 +119,7 @@ std::vector<bool> BranchingRule::settled(const certify::CompiledSystem& system, 
     if (std::none_of(begin, end, [](const Interval& d) { return d.width() < kSettledShare * d.mig(); })) continue;
     for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) result[system.column(k)] = true;
   }
-  const auto is_so = [](bool settled) { return settled; };
-  if (std::ranges::all_of(result, is_so) || std::ranges::none_of(result, is_so)) result.clear();
+  if (std::ranges::none_of(result, [](bool settled) { return settled; })) result.clear();
   return result;
 }
 

@@ -33,7 +33,7 @@ class BranchingRule {
 
   /// Of each variable: is it one of an equation that shares no variable with any other, such as the circle of a motor that
   /// turns freely, and is that equation's solution in x a sheet? The set is a product with that sheet, and dividing x along
-  /// it helps nothing. Empty where there is no such equation, or no other.
+  /// it helps nothing. Empty where there is no such equation.
   std::vector<bool> settled(const certify::CompiledSystem& system, std::span<const Interval> x) const;
 
   const std::vector<double>& weights() const { return weight_; }

@@ -38,6 +38,16 @@ TEST(Aspects, OfTheThreeSlidersAreArcs) {
   EXPECT_EQ(a.working_modes.at_least, 4);
 }
 
+// Neither crank of this spatial four-bar turns all the way: its C-space is one closed curve, on which each angle has a
+// greatest and a least value. Sheets are so large that enclosures of their parts stay wide but for a proof of their own.
+TEST(Aspects, OfASpatialFourBarAreItsFourArcs) {
+  const Aspects found = aspects_of(symbolic::read_model(CORANK_SOURCE_DIR "/tests/data/rssr.cuik"));
+  EXPECT_TRUE(found.aspects.exact() && found.assembly_modes.exact() && found.working_modes.exact());
+  EXPECT_EQ(found.aspects.at_least, 4);
+  EXPECT_EQ(found.assembly_modes.at_least, 2);
+  EXPECT_EQ(found.working_modes.at_least, 2);
+}
+
 TEST(Aspects, DoNotDependOnTheUnitOfLength) {
   std::vector<std::string> units{"1/1000", "1000000"};
   if (test::long_run()) units.insert(units.end(), {"1", "100"});

@@ -45,7 +45,11 @@ def test_a_picture_with_another_curve_is_another_picture():
     assert abs(first - second).mean() > 0.01 and abs(first - first).mean() == 0
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS, ids=[p.stem for p in NOTEBOOKS])
+def is_run(path):
+    return os.environ.get("CORANK_SEEDS") or path.stem in ("tutorial", "parts")  # the dearer two in long runs alone
+
+
+@pytest.mark.parametrize("path", [p for p in NOTEBOOKS if is_run(p)], ids=lambda p: p.stem)
 def test_a_notebook_runs_and_shows_what_is_in_the_documentation(path, tmp_path, monkeypatch):
     if not os.environ.get("CORANK_SEEDS"):
         startup = tmp_path / "profile_default" / "startup"
