@@ -9,8 +9,6 @@
 namespace corank::app {
 namespace {
 
-constexpr auto kRefreshInterval = std::chrono::milliseconds(100);
-
 std::size_t terminal_width() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;

@@ -11,6 +11,9 @@ namespace corank::app {
 /// Draws on standard error where that is a terminal, else does nothing.
 class ProgressLine {
  public:
+  /// Between two pictures of the same stage.
+  static constexpr std::chrono::milliseconds kRefreshInterval{100};
+
   /// `task` stands before all else, such as "forward (2 of 4)".
   explicit ProgressLine(std::string task = "");
   ~ProgressLine() { clear(); }

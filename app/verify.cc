@@ -22,8 +22,6 @@
 namespace corank::app {
 namespace {
 
-constexpr auto kInterval = std::chrono::milliseconds(100);  // between two pictures of the progress
-
 struct VerifyCommand {
   std::string input;
   JsonOption json;
@@ -42,7 +40,7 @@ result::Verification check(const result::Result& result, const System& system, c
   if (line.visible()) {
     options.progress = [&line, next = Clock::now()](const check::Progress& p) mutable {
       if (Clock::now() < next) return;
-      next = Clock::now() + kInterval;
+      next = Clock::now() + ProgressLine::kRefreshInterval;
       line.show(p.steps == 0 ? fmt::format("{} of {} boxes", p.boxes, p.all_boxes)
                              : fmt::format("step {} of {}", p.steps, p.all_steps));
     };

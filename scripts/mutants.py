@@ -82,7 +82,7 @@ class Copy:
         program = next(self.build_folder.glob(f"tests/**/{target}"))
         options = ["--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=" + tests]
         try:
-            outcome = run(program, *options, timeout=TEST_TIMEOUT, env={**os.environ, "CORANK_SEEDS": "20"})  # long forms
+            outcome = run(program, *options, timeout=TEST_TIMEOUT, env={**os.environ, "CORANK_SEEDS": "60"})  # long forms
         except subprocess.TimeoutExpired:
             return f"{target}, which does not end"
         if outcome.returncode == 0:

@@ -93,11 +93,10 @@ bool SignCells::is_covered_before(const SignCell& cell) const {
 const Box& SignCells::region(const SignCell& cell) const { return cover_.regions[cover_.boxes[cell.box].region]; }
 
 void SignCells::evaluate(SignCell& cell) {
+  const std::vector<int> dependent = solve::other_variables(cell.free, system_.size());
   const auto widest = [&] {
     double most = 0;
-    for (std::size_t j = 0; j < cell.sides.size(); ++j)
-      if (std::ranges::find(cell.free, static_cast<int>(j)) == cell.free.end())
-        most = std::max(most, cell.sides[j].width() / proof_.compiled().scales()[j]);
+    for (const int j : dependent) most = std::max(most, cell.sides[j].width() / proof_.compiled().scales()[j]);
     return most;
   };
   const double before = widest();

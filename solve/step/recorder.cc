@@ -9,15 +9,14 @@ namespace corank::solve {
 namespace {
 using Step = Proof::Step;
 
-constexpr std::uint64_t kBlock = 16;  // of an allocation's own
-
-std::uint64_t bytes_of(const Proof::Combination& c) {
-  return sizeof(c) + kBlock * 3 + sizeof(float) * (c.equations.size() + c.dependent.size() + c.y.size());
-}
-
 bool fits_float(double y) { return y == 0 || (std::fabs(y) > 1e-30 && std::fabs(y) < 1e30); }
 
 }  // namespace
+
+std::uint64_t bytes_of(const Proof::Combination& c) {
+  return sizeof(c) + 3 * kAllocationBytes + sizeof(int) * (c.equations.size() + c.dependent.size()) +
+         sizeof(float) * c.y.size();
+}
 
 StepSize size_of_step(Step kind, const std::int32_t* integers) {
   switch (kind) {

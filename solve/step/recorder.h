@@ -32,6 +32,12 @@ struct StepSize {
 };
 StepSize size_of_step(Proof::Step kind, const std::int32_t* integers);
 
+/// What an allocation takes beside what is asked for, nearly.
+inline constexpr int kAllocationBytes = 16;
+
+/// What it takes in memory, nearly.
+std::uint64_t bytes_of(const Proof::Combination& c);
+
 class Recorder {
  public:
   Recorder() = default;

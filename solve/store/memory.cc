@@ -14,7 +14,6 @@
 namespace corank::solve {
 namespace {
 
-constexpr std::int64_t kAllocation = 16;                   // of an allocation's own
 constexpr std::int64_t kSortedBytes = 6 * sizeof(double);  // pointers and keys
 
 template <class T>
@@ -58,17 +57,17 @@ MemoryEstimate::MemoryEstimate(const certify::Reduction& reduction, std::uint64_
   const auto sides = static_cast<std::int64_t>(reduction.kept.size() + reduction.definitions.size());
   const auto n = static_cast<std::int64_t>(reduction.kept.size());
   const auto m = static_cast<std::int64_t>(reduction.system.equations.size());
-  const std::int64_t own = bytes<Interval>(sides) + kAllocation;
+  const std::int64_t own = bytes<Interval>(sides) + kAllocationBytes;
   // Each box is there once: found, then in the cover.
-  const std::int64_t found = bytes<Found>(1) + own + kAllocation + kSortedBytes,
-                     in_cover = bytes<CoverBox>(1) + own + kAllocation + static_cast<std::int64_t>(later_bytes) * sides;
+  const std::int64_t found = bytes<Found>(1) + own + kAllocationBytes + kSortedBytes,
+                     in_cover = bytes<CoverBox>(1) + own + kAllocationBytes + static_cast<std::int64_t>(later_bytes) * sides;
   box_ = std::max(found, in_cover);
-  region_ = 2 * own + bytes<Box>(2) + 3 * kAllocation + static_cast<std::int64_t>(kFileBytes) * sides;
+  region_ = 2 * own + bytes<Box>(2) + 3 * kAllocationBytes + static_cast<std::int64_t>(kFileBytes) * sides;
   // Its region and image; a point of the cover beside the box.
-  sheet_ =
-      bytes<certify::Sheet>(1) + bytes<Interval>(2 * n) + bytes<int>(2 * m) + 5 * kAllocation + bytes<CoverBox>(1) + own;
+  sheet_ = bytes<certify::Sheet>(1) + bytes<Interval>(2 * n) + bytes<int>(2 * m) + 5 * kAllocationBytes +
+           bytes<CoverBox>(1) + own;
   // The tableau, Y (three times) and Y·S.
-  waiting_ = bytes<Waiting>(1) + bytes<Interval>(n) + kAllocation;
+  waiting_ = bytes<Waiting>(1) + bytes<Interval>(n) + kAllocationBytes;
   thread_ = bytes<double>(m * n + 3 * m * m) + bytes<Interval>(m * n);
 }
 
@@ -76,7 +75,7 @@ std::int64_t MemoryEstimate::of(const Found& found, const Found* former) const {
   std::int64_t sum = box_ + bytes<int>(static_cast<std::int64_t>(found.box.free.size()));
   if (found.region && !(former && former->region == found.region)) sum += region_;
   if (found.sheet) sum += sheet_;
-  if (!found.leaves.empty()) sum += bytes<std::uint64_t>(1) + kAllocation;
+  if (!found.leaves.empty()) sum += bytes<std::uint64_t>(1) + kAllocationBytes;
   return sum;
 }
 
@@ -90,17 +89,17 @@ std::int64_t MemoryEstimate::of(const PackedFound& found) const {
 std::int64_t MemoryEstimate::of_sheet(const certify::Sheet& sheet) const {
   const auto sides = static_cast<std::int64_t>(sheet.region.size()),
              numbers = static_cast<std::int64_t>(sheet.equations.size() + sheet.dependent.size());
-  return std::max(bytes<Proven>(1) + bytes<Interval>(3 * sides) + bytes<int>(numbers) + 5 * kAllocation, box_);
+  return std::max(bytes<Proven>(1) + bytes<Interval>(3 * sides) + bytes<int>(numbers) + 5 * kAllocationBytes, box_);
 }
 
 std::uint64_t bytes_of(const Cover& cover, std::uint64_t later_bytes) {
   std::uint64_t sum = 0;
   for (const CoverBox& box : cover.boxes)
-    sum += sizeof(box) + box.box.size() * (sizeof(Interval) + later_bytes) + box.free.size() * sizeof(int) + 2 * kAllocation;
-  for (const Box& region : cover.regions) sum += sizeof(region) + region.size() * sizeof(Interval) + kAllocation;
+    sum += sizeof(box) + box.box.size() * (sizeof(Interval) + later_bytes) + box.free.size() * sizeof(int) +
+           2 * kAllocationBytes;
+  for (const Box& region : cover.regions) sum += sizeof(region) + region.size() * sizeof(Interval) + kAllocationBytes;
   if (cover.proof) {
-    for (const auto& c : cover.proof->combinations)
-      sum += sizeof(c) + sizeof(int) * 2 * c.equations.size() + sizeof(float) * c.y.size() + 3 * kAllocation;
+    for (const Proof::Combination& c : cover.proof->combinations) sum += bytes_of(c);
     sum += cover.proof->steps.size() + sizeof(std::int32_t) * cover.proof->integers.size() +
            sizeof(double) * cover.proof->reals.size();
   }

@@ -355,7 +355,6 @@ void expect_a_tube(const study::Question& question, Avoid avoid, const std::vect
 }
 
 TEST(Path, OfAStewartPlatformIsATube) {
-  if (!test::long_run()) GTEST_SKIP() << "takes seconds; CORANK_SEEDS asks for it";
   const auto legs = [](const std::vector<std::string>& lengths) {
     std::vector<std::pair<std::string, std::string>> list;
     for (std::size_t k = 0; k < lengths.size(); ++k) list.emplace_back("leg" + std::to_string(k + 1), lengths[k]);

@@ -96,9 +96,8 @@ TEST(PiecesFile, OfAFiveBarWithSlidersIsVerified) {
   expect_complete(file);
 }
 
-// So have 10 aspects. Verifying takes long.
+// So have 10 aspects.
 TEST(PiecesFile, OfDextarIsVerified) {
-  if (!test::long_run()) GTEST_SKIP() << "takes seconds; CORANK_SEEDS asks for it";
   const PiecesFile file = make_pieces_file("dextar");
   EXPECT_EQ(file.lists[0].at_most, 10);
   expect_complete(file);

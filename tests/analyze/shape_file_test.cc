@@ -90,7 +90,6 @@ TEST(ShapeFile, OfALinkageIsVerified) {
 }
 
 TEST(ShapeFile, OfDextarIsVerified) {
-  if (!test::long_run()) GTEST_SKIP() << "takes seconds; CORANK_SEEDS asks for it";
   const ShapeFile file = make_file(study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik").mechanism);
   const check::ShapeReport report = result::verify(file);
   EXPECT_TRUE(report.complete()) << result::to_table(report, file);

@@ -12,7 +12,6 @@
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/singularity_system.h"
 #include "corank/tests/app/program.h"
-#include "corank/tests/seeds.h"
 
 namespace corank::app {
 namespace {
@@ -119,7 +118,6 @@ struct Hard {
   Words args;
   int status;
   std::string out, err;  ///< parts
-  bool only_in_long_runs = false;
 };
 
 class HardFiles : public testing::TestWithParam<Hard> {};
@@ -127,7 +125,6 @@ class HardFiles : public testing::TestWithParam<Hard> {};
 TEST_P(HardFiles, EndAsTheyShould) {
   const std::filesystem::path path = hard_files() / GetParam().file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there (CORANK_DEFECTS_DIR)";
-  if (GetParam().only_in_long_runs && !test::long_run()) GTEST_SKIP() << "takes seconds; CORANK_SEEDS asks for it";
   Words args{"solve", path.string()};
   args.insert(args.end(), GetParam().args.begin(), GetParam().args.end());
   const Outcome outcome = run_corank(args);
@@ -152,8 +149,8 @@ INSTANTIATE_TEST_SUITE_P(
         // A sphere of undecided boxes where points are expected: a quarter of a million, in one cluster but for what is
         // pending between them.
         Hard{"shell3.cuik", {"--sigma", "0.002"}, 0, "1 point: 1 isolated", ""},
-        // 3,000 variables; 1,000 are in large_models_test.cc.
-        Hard{"manyvars.cuik", {}, 0, "1 point: 1 isolated", "", true}, Hard{"huge_exp.cuik", {}, 0, "complete", ""}),
+        // 3,000 variables.
+        Hard{"manyvars.cuik", {}, 0, "1 point: 1 isolated", ""}, Hard{"huge_exp.cuik", {}, 0, "complete", ""}),
     [](const auto& hard) { return std::filesystem::path(hard.param.file).stem().string(); });
 
 TEST(HardFilesInTime, EndAtATimeLimitInWhateverStageTheyAre) {

@@ -34,13 +34,8 @@ set(flags "")
 if(SANITIZE)
   set(flags -DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
 endif()
-# A long run (CORANK_SEEDS) compiles every header by itself.
-if(DEFINED ENV{CORANK_SEEDS})
-  list(APPEND flags -DEACH_HEADER=ON)
-endif()
-string(TOUPPER "${CONFIG}" config)
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/tests/architecture/consumer -B ${WORK}/build
-    -DCMAKE_PREFIX_PATH=${WORK}/moved -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS_${config}=-O0 ${flags}
+    -DCMAKE_PREFIX_PATH=${WORK}/moved -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX} ${flags}
     -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)

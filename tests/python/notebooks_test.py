@@ -19,13 +19,6 @@ os.environ.pop("MPLBACKEND", None)  # a kernel has its own
 
 import render  # noqa: E402
 
-# A page that show() makes is not compared: it has one set unless the run is a long one.
-START = """
-import functools, corank
-corank.Mechanism.show = functools.partialmethod(corank.Mechanism.show, sets=["forward"])
-del functools, corank
-"""
-
 
 def pixels(data, cells=48):
     """A picture as the mean colours of so many cells on each side: what it shows, whatever the smoothing of its lines."""
@@ -45,17 +38,8 @@ def test_a_picture_with_another_curve_is_another_picture():
     assert abs(first - second).mean() > 0.01 and abs(first - first).mean() == 0
 
 
-def is_run(path):
-    return os.environ.get("CORANK_SEEDS") or path.stem in ("tutorial", "parts")  # the dearer two in long runs alone
-
-
-@pytest.mark.parametrize("path", [p for p in NOTEBOOKS if is_run(p)], ids=lambda p: p.stem)
-def test_a_notebook_runs_and_shows_what_is_in_the_documentation(path, tmp_path, monkeypatch):
-    if not os.environ.get("CORANK_SEEDS"):
-        startup = tmp_path / "profile_default" / "startup"
-        startup.mkdir(parents=True)
-        (startup / "one_set.py").write_text(START)
-        monkeypatch.setenv("IPYTHONDIR", str(tmp_path))
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=[p.stem for p in NOTEBOOKS])
+def test_a_notebook_runs_and_shows_what_is_in_the_documentation(path):
     text, pictures = render.markdown(render.run(path, SOURCE), path.stem)
     known = SOURCE / "doc" / "notebooks"
     expected = (known / f"{path.stem}.md").read_text()

@@ -12,7 +12,6 @@
 #include "corank/solve/search/solve.h"
 #include "corank/study/model.h"
 #include "corank/study/question.h"
-#include "corank/tests/seeds.h"
 
 namespace corank {
 namespace {
@@ -56,7 +55,6 @@ void PrintTo(const SuiteWorld& w, std::ostream* out) { *out << w.file; }
 class PosturesInTheSuite : public testing::TestWithParam<SuiteWorld> {};
 
 TEST_P(PosturesInTheSuite, AreIsolatedAndProven) {
-  if (GetParam().processed > 100'000 && !test::long_run()) GTEST_SKIP() << "the platform of the test before, for long runs";
   const std::filesystem::path file = std::string(CORANK_SOURCE_DIR "/../shared/cuik/worlds/") + GetParam().file;
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
   const Postures p = postures(study::read_model(file).mechanism);
