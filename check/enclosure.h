@@ -20,7 +20,7 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Enclosure {
  public:
-  static constexpr int kBits = 160;
+  static constexpr int kBits = Mpfi::kStoredBits;
 
   Enclosure() : Enclosure(0.0) {}
   /*implicit*/ Enclosure(double point) { mpfi_set_d(x_, point); }
@@ -35,9 +35,9 @@ class Enclosure {
   Enclosure& operator+=(const Enclosure& x) { return mpfi_add(x_, x_, x.x_), *this; }
   Enclosure& operator-=(const Enclosure& x) { return mpfi_sub(x_, x_, x.x_), *this; }
   Enclosure& operator*=(const Enclosure& x) { return mpfi_mul(x_, x_, x.x_), *this; }
-  friend Enclosure operator+(Enclosure x, const Enclosure& y) { return std::move(x += y); }
-  friend Enclosure operator-(Enclosure x, const Enclosure& y) { return std::move(x -= y); }
-  friend Enclosure operator*(Enclosure x, const Enclosure& y) { return std::move(x *= y); }
+  friend Enclosure operator+(const Enclosure& x, const Enclosure& y) { return made(mpfi_add, x, y); }
+  friend Enclosure operator-(const Enclosure& x, const Enclosure& y) { return made(mpfi_sub, x, y); }
+  friend Enclosure operator*(const Enclosure& x, const Enclosure& y) { return made(mpfi_mul, x, y); }
   friend Enclosure operator-(const Enclosure& x) { return Enclosure(0.0) - x; }
   /// this += a·x, this += a·x with a point a.
   void add_product(const Enclosure& a, const Enclosure& x);
@@ -81,6 +81,13 @@ class Enclosure {
   friend Enclosure arc_cosine(const Enclosure& x);                    ///< x within [−1, 1]
 
  private:
+  explicit Enclosure(Mpfi x) : x_(std::move(x)) {}
+  static Enclosure made(int operation(mpfi_ptr, mpfi_srcptr, mpfi_srcptr), const Enclosure& x, const Enclosure& y) {
+    Mpfi result(kBits);
+    operation(result, x.x_, y.x_);
+    return Enclosure(std::move(result));
+  }
+
   Mpfi x_{kBits};
 };
 

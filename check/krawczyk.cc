@@ -170,25 +170,28 @@ bool Krawczyk::invert_refined() {
 
 void Krawczyk::multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const {
   const std::size_t r = equations_.size();
-  product.assign(r, Sides(n_));
-  for (std::size_t a = 0; a < r; ++a)
+  product.resize(r);
+  for (std::size_t a = 0; a < r; ++a) {
+    product[a].assign(n_, Enclosure());
     for (std::size_t b = 0; b < r; ++b) {
       const double y = y_[a * r + b];
       if (y == 0) continue;
       for (std::size_t k = 0; k < rows[b].size(); ++k) product[a][equations_[b].columns()[k]].add_product(y, rows[b][k]);
     }
+  }
 }
 
 Sides Krawczyk::image(const Sides& x) {
   for (std::size_t b = 0; b < equations_.size(); ++b) equations_[b].slopes(x, center_sides_, entries_[b]);
   multiply(entries_, product_);
-  Sides image;
+  Sides image, distance;
+  for (std::size_t j = 0; j < x.size(); ++j) distance.push_back(x[j] - center_sides_[j]);
   for (std::size_t a = 0; a < dependent_.size(); ++a) {
     Enclosure sum = residual_[a];
     for (std::size_t j = 0; j < x.size(); ++j) {
       const bool own = static_cast<int>(j) == dependent_[a];
       if (!own && product_[a][j].is_zero()) continue;
-      sum.add_product(own ? product_[a][j] - Enclosure(1.0) : product_[a][j], x[j] - center_sides_[j]);
+      sum.add_product(own ? product_[a][j] - Enclosure(1.0) : product_[a][j], distance[j]);
     }
     image.push_back(center_sides_[dependent_[a]] - sum);
   }

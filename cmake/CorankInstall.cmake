@@ -11,7 +11,7 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/corankConfig.cmake.in 
                               INSTALL_DESTINATION ${CORANK_INSTALL_CMAKE} PATH_VARS CORANK_INSTALL_MODELS)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/corankConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/corankConfig.cmake ${PROJECT_BINARY_DIR}/corankConfigVersion.cmake
-              ${PROJECT_SOURCE_DIR}/cmake/CorankLibraries.cmake ${PROJECT_SOURCE_DIR}/cmake/FindMPFI.cmake ${PROJECT_SOURCE_DIR}/cmake/FindOMPL.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/CorankLibraries.cmake ${PROJECT_SOURCE_DIR}/cmake/FindMPFI.cmake
               ${PROJECT_SOURCE_DIR}/cmake/FindFLINT.cmake
         DESTINATION ${CORANK_INSTALL_CMAKE} COMPONENT dev)
 
@@ -25,10 +25,6 @@ endforeach()
 set(CORANK_PKGCONFIG_CAIRO "")
 if(CORANK_HAS_CAIRO)
   set(CORANK_PKGCONFIG_CAIRO " cairo >= 1.16, cairo-pdf,")
-endif()
-set(CORANK_PKGCONFIG_OMPL "")
-if(CORANK_HAS_OMPL)
-  set(CORANK_PKGCONFIG_OMPL "-lompl ")
 endif()
 file(RELATIVE_PATH CORANK_PKGCONFIG_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" CORANK_PKGCONFIG_PREFIX "${CORANK_PKGCONFIG_PREFIX}")

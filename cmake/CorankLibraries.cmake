@@ -1,14 +1,11 @@
 # The libraries that corank's own libraries link. Read twice: by the build, and by corankConfig.cmake on behalf of whoever links
-# the installed static libraries. CORANK_HAS_OMPL and CORANK_HAS_CAIRO say whether those are among them.
+# the installed static libraries. CORANK_HAS_CAIRO says whether Cairo is among them.
 include(CMakeFindDependencyMacro)
 list(PREPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 find_dependency(PkgConfig)
 find_dependency(Threads)
 find_dependency(MPFI)
 find_dependency(FLINT)
-if(CORANK_HAS_OMPL)
-  find_dependency(OMPL)
-endif()
 find_dependency(TBB 2021)
 find_dependency(fmt 9)
 list(POP_FRONT CMAKE_MODULE_PATH)

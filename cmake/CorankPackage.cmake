@@ -34,9 +34,6 @@ set(dependencies
 if(CORANK_HAS_CAIRO)
   list(APPEND dependencies libcairo2-dev)
 endif()
-if(CORANK_HAS_OMPL)
-  list(APPEND dependencies libompl-dev)
-endif()
 list(JOIN dependencies ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 set(CPACK_DEBIAN_DEV_DESCRIPTION "singularities of robot mechanisms (C++ library)
 corank takes the model of a robot mechanism and returns all its

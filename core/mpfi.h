@@ -4,11 +4,19 @@
 #include <mpfi.h>
 #include <mpfr.h>
 
+#include <vector>
+
 namespace corank {
 
+/// Memory of numbers of kStoredBits bits is used again: taking it from the system and giving it back costs as much as
+/// computing with it.
 class Mpfi {
  public:
-  explicit Mpfi(mpfr_prec_t bits) { mpfi_init2(x_, bits); }
+  static constexpr mpfr_prec_t kStoredBits = 160;  // of the checker's
+
+  explicit Mpfi(mpfr_prec_t bits) {
+    if (bits != kStoredBits || !Store::take(*x_)) mpfi_init2(x_, bits);
+  }
   Mpfi(const Mpfi& o) : Mpfi(mpfi_get_prec(o.x_)) { mpfi_set(x_, o.x_); }
   /// o has no value afterwards, only what destroys it or assigns to it may follow.
   Mpfi(Mpfi&& o) noexcept {
@@ -23,7 +31,7 @@ class Mpfi {
   }
   Mpfi& operator=(Mpfi&& o) noexcept { return mpfi_swap(x_, o.x_), *this; }
   ~Mpfi() {
-    if (has_value()) mpfi_clear(x_);
+    if (has_value() && !(mpfi_get_prec(x_) == kStoredBits && Store::keep(*x_))) mpfi_clear(x_);
   }
 
   operator mpfi_ptr() { return x_; }
@@ -32,6 +40,45 @@ class Mpfi {
   mpfr_srcptr upper() const { return &x_->right; }
 
  private:
+  // A thread's numbers that nobody uses.
+  class Store {
+   public:
+    static bool take(__mpfi_struct& x) {
+      std::vector<__mpfi_struct>& free = of_thread().free_;
+      if (free.empty()) return false;
+      x = free.back();
+      free.pop_back();
+      return true;
+    }
+    static bool keep(__mpfi_struct& x) {
+      if (ended()) return false;
+      std::vector<__mpfi_struct>& free = of_thread().free_;
+      if (free.size() == kMost) return false;
+      free.push_back(x);
+      return true;
+    }
+
+   private:
+    static constexpr std::size_t kMost = 4096;
+
+    Store() { free_.reserve(kMost); }
+    ~Store() {
+      for (__mpfi_struct& x : free_) mpfi_clear(&x);
+      ended() = true;
+    }
+    static Store& of_thread() {
+      thread_local Store store;
+      return store;
+    }
+    // The numbers of static objects are destroyed after those of their thread.
+    static bool& ended() {
+      thread_local bool value = false;
+      return value;
+    }
+
+    std::vector<__mpfi_struct> free_;
+  };
+
   bool has_value() const { return x_->left._mpfr_d != nullptr; }  // not moved from
 
   mpfi_t x_;

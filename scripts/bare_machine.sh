@@ -1,6 +1,6 @@
 #!/bin/bash
 # README's two commands on a machine that has nothing yet: makes a Debian 12 root with debootstrap, clones the last commit into it, and runs
-# scripts/demo.sh there, which installs the group [program] of packages.txt alone, tries what the program does without OMPL and Cairo, and
+# scripts/demo.sh there, which installs the group [program] of packages.txt alone, tries what the program does without Cairo, and
 # runs scripts/test.sh; then makes the Debian packages and tries them on another such machine, which has nothing else.
 # Part of the release routine (CONTRIBUTING.md); as root, some thirty minutes and 9 GB.
 #   scripts/bare_machine.sh [--demo] [FOLDER]     --demo: ends before scripts/test.sh; default: a temporary one, removed at the end; a FOLDER that holds a root already is used as it is

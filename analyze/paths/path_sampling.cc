@@ -1,105 +1,97 @@
-#include "corank/analyze/paths/tube_builder.h"
-
-#include <ompl/base/ConstrainedSpaceInformation.h>
-#include <ompl/base/Constraint.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
-#include <ompl/base/spaces/constraint/ProjectedStateSpace.h>
-#include <ompl/geometric/SimpleSetup.h>
-#include <ompl/geometric/planners/rrt/RRTConnect.h>
-#include <ompl/util/Console.h>
-#include <ompl/util/RandomNumbers.h>
-
 #include <algorithm>
-#include <mutex>
+#include <chrono>
+#include <limits>
+#include <random>
+
+#include "corank/analyze/paths/tube_builder.h"
 
 namespace corank::analyze {
 namespace {
 
-namespace ob = ompl::base;
-namespace og = ompl::geometric;
+using Point = PathSpace::Point;
 
-class Equations : public ob::Constraint {
+// Configurations that a way joins to its first one, each near its parent.
+class Tree {
  public:
-  explicit Equations(const PathSpace& space)
-      : ob::Constraint(static_cast<unsigned>(space.size()), static_cast<unsigned>(space.size() - space.dimension()), 1e-10),
-        space_(space) {}
-  void function(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> out) const override {
-    out = space_.residual(x);
+  explicit Tree(Point root) : points_{std::move(root)}, parents_{0} {}
+
+  const Point& operator[](std::size_t node) const { return points_[node]; }
+  std::size_t add(Point x, std::size_t parent) {
+    points_.push_back(std::move(x));
+    parents_.push_back(parent);
+    return points_.size() - 1;
   }
-  void jacobian(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> out) const override {
-    out = space_.jacobian(x);
+  std::size_t nearest(const Point& x) const {
+    std::size_t best = 0;
+    double least = (points_[0] - x).squaredNorm();
+    for (std::size_t k = 1; k < points_.size(); ++k)
+      if (const double distance = (points_[k] - x).squaredNorm(); distance < least) least = distance, best = k;
+    return best;
   }
-  bool project(Eigen::Ref<Eigen::VectorXd> x) const override {
-    PathSpace::Point point = x;
-    if (!space_.project(point)) return false;
-    x = point;
-    return true;
+  /// From a node to the root.
+  TubeBuilder::Points way(std::size_t node) const {
+    TubeBuilder::Points points{points_[node]};
+    while (node != 0) points.push_back(points_[node = parents_[node]]);
+    return points;
   }
 
  private:
-  const PathSpace& space_;
+  TubeBuilder::Points points_;
+  std::vector<std::size_t> parents_;
 };
-
-// The same way each time.
-void settle_ompl() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-    ompl::RNG::setSeed(1);
-  });
-}
 
 }  // namespace
 
-std::optional<TubeBuilder::Points> sampled_way(const PathSpace& space, const PathSpace::Point& from,
-                                               const PathSpace::Point& to, double margin, double seconds,
-                                               const solve::Control& control) {
-  settle_ompl();
-  const auto n = static_cast<unsigned>(space.size());
-  const auto ambient = std::make_shared<ob::RealVectorStateSpace>(n);
-  ob::RealVectorBounds bounds(n);
-  for (unsigned j = 0; j < n; ++j) {
-    const Interval& side = space.system().variables[j].domain;
-    const double size = space.sizes()[j], room = 1e-6 * (1 + side.width() / size);
-    bounds.setLow(j, side.lo() / size - room);
-    bounds.setHigh(j, side.hi() / size + room);
-  }
-  ambient->setBounds(bounds);
-  const auto constraint = std::make_shared<Equations>(space);
-  const auto projected = std::make_shared<ob::ProjectedStateSpace>(ambient, constraint);
-  const auto information = std::make_shared<ob::ConstrainedSpaceInformation>(projected);
-  og::SimpleSetup setup(information);
+std::optional<TubeBuilder::Points> sampled_way(const PathSpace& space, const Point& from, const Point& to, double margin,
+                                               double seconds, const solve::Control& control) {
+  constexpr double kStep = 0.05, kReach = 1.5;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   const std::vector<int> signs = space.state(from).signs;
-  setup.setStateValidityChecker([&](const ob::State* state) {
-    const auto& x = *state->as<ob::ConstrainedStateSpace::StateType>();
+  const auto accept = [&](const Point& x) {
     const PathSpace::State s = space.state(x);
     return s.inside && s.margin >= margin && s.signs == signs;
-  });
-  ob::ScopedState<> start(projected), goal(projected);
-  start->as<ob::ConstrainedStateSpace::StateType>()->copy(from);
-  goal->as<ob::ConstrainedStateSpace::StateType>()->copy(to);
-  setup.setStartAndGoalStates(start, goal);
-  setup.setPlanner(std::make_shared<og::RRTConnect>(information));
-  try {
-    setup.setup();
-    const auto limit = ob::timedPlannerTerminationCondition(seconds);
-    const ob::PlannerTerminationCondition ended([&] { return limit() || control.ended(); });
-    if (setup.solve(ended) != ob::PlannerStatus::EXACT_SOLUTION) return std::nullopt;
-  } catch (const ompl::Exception&) {
-    return std::nullopt;
+  };
+  // Grows the tree from a node in steps towards the configuration x, as far as these come nearer; the last node.
+  const auto grow = [&](Tree& tree, std::size_t node, const Point& x, double reach) {
+    double left = (x - tree[node]).norm();
+    for (double gone = 0; gone < reach && left > 0; gone += kStep) {
+      Point next = x;
+      if (left > kStep) {
+        next = tree[node] + (x - tree[node]) * (kStep / left);
+        if (!space.project(next) || (next - tree[node]).norm() > 2 * kStep) break;
+      }
+      const double still = (x - next).norm();
+      if (still >= left || !accept(next)) break;
+      node = tree.add(std::move(next), node);
+      left = still;
+    }
+    return node;
+  };
+  std::mt19937_64 random(1);  // the same way each time
+  const auto sample = [&] {
+    Point x(space.size());
+    for (int j = 0; j < space.size(); ++j) {
+      const Interval& side = space.system().variables[j].domain;
+      x[j] = std::uniform_real_distribution(side.lo(), side.hi())(random) / space.sizes()[j];
+    }
+    return x;
+  };
+  Tree from_start(from), from_goal(to);
+  for (bool forward = true; std::chrono::steady_clock::now() < end && !control.ended(); forward = !forward) {
+    Point x = sample();
+    if (!space.project(x)) continue;
+    Tree &near = forward ? from_start : from_goal, &far = forward ? from_goal : from_start;
+    const std::size_t reached = grow(near, near.nearest(x), x, kReach);
+    const Point middle = near[reached];
+    const std::size_t met = grow(far, far.nearest(middle), middle, std::numeric_limits<double>::infinity());
+    if (far[met] != middle) continue;
+    TubeBuilder::Points way = near.way(reached), rest = far.way(met);
+    std::ranges::reverse(way);
+    way.insert(way.end(), rest.begin() + 1, rest.end());
+    if (!forward) std::ranges::reverse(way);
+    return way;
   }
-  og::PathGeometric path = setup.getSolutionPath();
-  path.interpolate();
-  TubeBuilder::Points points;
-  for (const ob::State* state : path.getStates()) {
-    PathSpace::Point x = *state->as<ob::ConstrainedStateSpace::StateType>();
-    if (!space.project(x)) return std::nullopt;
-    points.push_back(std::move(x));
-  }
-  if (points.size() < 2) return std::nullopt;
-  points.front() = from;
-  points.back() = to;
-  return points;
+  return std::nullopt;
 }
 
 }  // namespace corank::analyze

@@ -59,10 +59,10 @@ class TubeBuilder {
   double hope_ = 0;  // a step's length that may be proven
 };
 
-/// A way on a C-space of any dimension by sampling: OMPL's planners on the projected state space of a constraint (key
-/// Kingston2019). It is in doubles, and proves nothing. Its margins (PathSpace::state) are at least `margin`, and its signs
-/// are those of its start. Nothing where no way was found in `seconds`, or without OMPL: CMake chooses between
-/// path_sampling.cc and path_sampling_missing.cc.
+/// A way on a C-space of any dimension by sampling: RRT-Connect, two trees that grow towards samples and each other
+/// (Kuffner2000), each step projected to C-space (Kingston2019). It is in doubles, and proves nothing. Its margins
+/// (PathSpace::state) are at least `margin`, and its signs are those of its start. Nothing where no way was found in
+/// `seconds`.
 std::optional<TubeBuilder::Points> sampled_way(const PathSpace& space, const PathSpace::Point& from,
                                                const PathSpace::Point& to, double margin, double seconds,
                                                const solve::Control& control);

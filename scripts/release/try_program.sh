@@ -1,6 +1,6 @@
 #!/bin/bash
-# What a user of the program does first, on a machine that has nothing else: three sets of Dextar, a check, a report, ways; with OMPL and
-# Cairo, where they are in.
+# What a user of the program does first, on a machine that has nothing else: three sets of Dextar, a check, a report, ways; and
+# pictures of Cairo, where it is in.
 #   try_program.sh CORANK MODELS
 set -euo pipefail
 program=$(type -P "$1")
@@ -42,16 +42,12 @@ says "path, proven" said
 corank verify path.h5 >said
 says "^verified$" said
 
-# In six dimensions, where OMPL proposes ways: an arm of six joints.
+# In six dimensions, where samples propose ways: an arm of six joints.
 sed -E 's/  range \[(t[146]), \1\]//' "$models/serial/ur5.cuik" >arm.cuik
 corank path arm.cuik --avoid inverse --from theta1=0,theta2=-1,theta3=1,theta4=0.5,theta5=1,theta6=0 --from-mode 1 \
-  --to theta1=3,theta2=-1.5,theta3=2,theta4=3,theta5=1,theta6=2 --to-mode 1 -o arm.h5 >said || true
-if grep -q "found by sampling" said; then
-  says "path, proven" said
-  corank verify arm.h5 >said
-  says "^verified$" said
-  echo "with OMPL: a way in six dimensions"
-else
-  says "libompl-dev" said
-fi
+  --to theta1=3,theta2=-1.5,theta3=2,theta4=3,theta5=1,theta6=2 --to-mode 1 -o arm.h5 >said
+says "path, proven" said
+says "found by sampling" said
+corank verify arm.h5 >said
+says "^verified$" said
 echo "== the program passes"

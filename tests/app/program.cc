@@ -96,9 +96,7 @@ Outcome run_corank_in_a_copy(const std::vector<std::string>& args, const Allowed
   return outcome_of(work, allowed);
 }
 
-Outcome run_corank_without_options(const std::vector<std::string>& args) {
-  return run_program(CORANK_WITHOUT_OPTIONS, args);
-}
+Outcome run_corank_without_cairo(const std::vector<std::string>& args) { return run_program(CORANK_WITHOUT_CAIRO, args); }
 
 int run_corank_into(const std::string& file, const std::vector<std::string>& args) {
   return run_in_child([&] { execute(CORANK_PROGRAM, args); }, file, "/dev/null", {});

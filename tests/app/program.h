@@ -29,8 +29,8 @@ Outcome run_corank(const std::vector<std::string>& args, const Allowed& allowed)
 /// would go into the loading of libraries.
 Outcome run_corank_in_a_copy(const std::vector<std::string>& args, const Allowed& allowed);
 
-/// run_corank by a program that was linked without OMPL and Cairo.
-Outcome run_corank_without_options(const std::vector<std::string>& args);
+/// run_corank by a program that was linked without Cairo.
+Outcome run_corank_without_cairo(const std::vector<std::string>& args);
 
 /// run_corank with standard output sent to a file of the system, such as /dev/full.
 int run_corank_into(const std::string& file, const std::vector<std::string>& args);
