@@ -39,6 +39,8 @@ class Browser:
                 "--disable-background-networking",
                 "--disable-component-update",
                 "--enable-unsafe-swiftshader",
+                "--disable-gpu-compositing",  # nor a process of its own: a fifth less processor time
+                "--in-process-gpu",
                 *flags,
                 f"--user-data-dir={self.folder}",
                 *(["--no-sandbox"] if os.geteuid() == 0 else []),
