@@ -44,17 +44,16 @@ class Mpfi {
   class Store {
    public:
     static bool take(__mpfi_struct& x) {
-      std::vector<__mpfi_struct>& free = of_thread().free_;
-      if (free.empty()) return false;
-      x = free.back();
-      free.pop_back();
+      std::vector<__mpfi_struct>* free = of_thread();
+      if (!free || free->empty()) return false;
+      x = free->back();
+      free->pop_back();
       return true;
     }
     static bool keep(__mpfi_struct& x) {
-      if (ended()) return false;
-      std::vector<__mpfi_struct>& free = of_thread().free_;
-      if (free.size() == kMost) return false;
-      free.push_back(x);
+      std::vector<__mpfi_struct>* free = of_thread();
+      if (!free || free->size() == kMost) return false;
+      free->push_back(x);
       return true;
     }
 
@@ -66,11 +65,12 @@ class Mpfi {
       for (__mpfi_struct& x : free_) mpfi_clear(&x);
       ended() = true;
     }
-    static Store& of_thread() {
+    // Null where the thread has ended: the numbers of static objects live longer.
+    static std::vector<__mpfi_struct>* of_thread() {
+      if (ended()) return nullptr;
       thread_local Store store;
-      return store;
+      return &store.free_;
     }
-    // The numbers of static objects are destroyed after those of their thread.
     static bool& ended() {
       thread_local bool value = false;
       return value;

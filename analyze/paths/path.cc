@@ -191,10 +191,7 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
   } else {
     const double step = std::max(1e-3, (ends.b - ends.a).norm() / 200);
     const double least = kNearBoundary * std::min(ends.state.margin, goal.margin);
-    const auto accept = [&](const PathSpace::Point& x) {
-      const PathSpace::State s = space_.state(x);
-      return s.inside && s.signs == ends.state.signs && s.margin >= least;
-    };
+    const auto accept = [&](const PathSpace::Point& x) { return space_.admits(x, ends.state.signs, least); };
     const auto between = builder_.follow(ends.a, ends.b, step, accept);
     if (!between || !try_way(ends, {ends.a, ends.b}, "direct", path, control)) {
       // A cover of three dimensions is dear: samples, which may find a way but never that there is none, come first.

@@ -162,10 +162,7 @@ std::optional<TubeBuilder::Points> PathGraph::way(const PathSpace::Point& from, 
   prepare_points(signs);
   Graph::Points& points = graph_->points.at(signs);
   const double step = 0.25 * sigma_;
-  const auto accept = [&](const PathSpace::Point& x) {
-    const PathSpace::State s = space_.state(x);
-    return s.inside && s.signs == signs;
-  };
+  const auto accept = [&](const PathSpace::Point& x) { return space_.admits(x, signs); };
   const auto near = [&](const PathSpace::Point& end) {
     std::vector<std::size_t> found;
     graph_->tree->for_each_overlapping(about(space_, end), 0, [&](std::size_t b) {

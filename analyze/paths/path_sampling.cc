@@ -47,10 +47,6 @@ std::optional<TubeBuilder::Points> sampled_way(const PathSpace& space, const Poi
   constexpr double kStep = 0.05, kReach = 1.5;
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   const std::vector<int> signs = space.state(from).signs;
-  const auto accept = [&](const Point& x) {
-    const PathSpace::State s = space.state(x);
-    return s.inside && s.margin >= margin && s.signs == signs;
-  };
   // Grows the tree from a node in steps towards the configuration x, as far as these come nearer; the last node.
   const auto grow = [&](Tree& tree, std::size_t node, const Point& x, double reach) {
     double left = (x - tree[node]).norm();
@@ -61,7 +57,7 @@ std::optional<TubeBuilder::Points> sampled_way(const PathSpace& space, const Poi
         if (!space.project(next) || (next - tree[node]).norm() > 2 * kStep) break;
       }
       const double still = (x - next).norm();
-      if (still >= left || !accept(next)) break;
+      if (still >= left || !space.admits(next, signs, margin)) break;
       node = tree.add(std::move(next), node);
       left = still;
     }

@@ -231,4 +231,9 @@ PathSpace::State PathSpace::state(const Point& x) const {
   return state;
 }
 
+bool PathSpace::admits(const Point& x, const std::vector<int>& signs, double margin) const {
+  const State s = state(x);
+  return s.inside && s.margin >= margin && s.signs == signs;
+}
+
 }  // namespace corank::analyze

@@ -60,6 +60,8 @@ class PathSpace {
     bool inside = false;     ///< the domain and the inequalities
   };
   State state(const Point& x) const;
+  /// May a way pass? Inside, on this side of the singularities, and with this margin at least.
+  bool admits(const Point& x, const std::vector<int>& signs, double margin = 0) const;
 
  private:
   void add_matrix(symbolic::SingularitySet set, bool with_factors);

@@ -131,10 +131,7 @@ TubeBuilder::Points TubeBuilder::shortcut(const Points& points, double share, co
   for (std::size_t k = 1; k < points.size(); ++k) length += (points[k] - points[k - 1]).norm();
   const std::vector<int> signs = space_.state(points.front()).signs;
   const double step = std::max(length / 200, 1e-3);
-  const auto accept = [&](const PathSpace::Point& x) {
-    const PathSpace::State s = space_.state(x);
-    return s.inside && s.margin >= share * least && s.signs == signs;
-  };
+  const auto accept = [&](const PathSpace::Point& x) { return space_.admits(x, signs, share * least); };
   Points result{points.front()};
   for (std::size_t at = 0; at + 1 < points.size();) {
     std::size_t next = points.size() - 1;
