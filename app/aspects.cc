@@ -83,18 +83,19 @@ void add_aspects(CLI::App& program, Action& action) {
          "-o", command->output,
          "A picture of the aspects over two outputs and over two inputs (.svg), or a certificate for corank verify (.h5)")
       ->type_name("FILE.svg|FILE.h5");
-  sub->add_flag("--areas", command->areas,
-                "If the model has two outputs, both lengths: bound the area that each aspect covers, and say which aspects\n"
-                "share outputs");
+  sub->add_flag(
+      "--areas", command->areas,
+      "If the model has two outputs, both lengths: bound the area of the outputs that each aspect reaches, and say\n"
+      "which aspects have outputs in common");
   sub->add_flag(
       "--cusps", command->options.cusps,
-      "Find the cusps of both loci, and the aspect in which each cusp lets the posture or the assembly mode change");
+      "Find the cusps of the forward and of the inverse singularities, and for each cusp the aspect in which the robot can\n"
+      "move around it, from one configuration to another with the same inputs or the same outputs");
   command->json.add(*sub);
   sub->footer(
-      "Aspects are the pieces of C-space without forward and inverse singularities, assembly modes the pieces without\n"
-      "forward singularities, and working modes the pieces without inverse singularities. Every number is proven. If "
-      "corank\n"
-      "cannot prove a number, it prints proven bounds.\n\n"
+      "C-space is the set of all configurations. Its pieces without forward and inverse singularities are the aspects. Its\n"
+      "pieces without forward singularities are the assembly modes, those without inverse singularities are the working\n"
+      "modes. The number of each is proven. If corank cannot prove the exact number, it prints proven bounds.\n\n"
       "Exit status: 0 done, 1 bad input or nothing to write, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
       "Examples:\n  corank aspects models/dextar.cuik\n  corank aspects models/dextar.cuik -o aspects.svg\n"
       "  corank aspects models/dextar.cuik -o aspects.h5\n  corank verify aspects.h5");

@@ -230,10 +230,10 @@ ExitStatus run_map(ClearanceCommand command) {
 }  // namespace
 
 void add_clearance(CLI::App& program, Action& action) {
-  CLI::App* sub =
-      program.add_subcommand("clearance", "Find the largest ball about a configuration that holds no singularity");
+  CLI::App* sub = program.add_subcommand(
+      "clearance", "Find how far a configuration is from singularities: the largest ball about it that holds none");
   const auto command = std::make_shared<ClearanceCommand>();
-  command->question.add_options(*sub);
+  command->question.add_options(*sub, "Which configurations the ball must not hold");
   sub->add_option(
          "--at", command->at,
          "The centre of the ball, and other coordinates that keep a value; a VALUE may use the model's constants, and\n"
@@ -243,12 +243,16 @@ void add_clearance(CLI::App& program, Action& action) {
   sub->add_option("--in", command->in, "The coordinates in which the ball lies; one radian counts like one unit of length")
       ->type_name("NAME,...")
       ->allow_extra_args(false);
-  sub->add_option("--range,--mode", command->ranges,
-                  "Keep coordinates within these ranges instead of the model's: for a mode, a limit, an angle that may move")
+  sub->add_option(
+         "--range,--mode", command->ranges,
+         "Search these ranges of coordinates instead of the model's, for example to look at one working mode only, to\n"
+         "set a joint's limit, or to let an angle vary; ±D: by at most D from the value in --at; --mode is the same option")
       ->type_name("NAME=[A,B],NAME=±D,...")
       ->allow_extra_args(false);
-  sub->add_option("--orientation-range", command->orientation_range,
-                  "Let the outputs' angles that --at gives, and the --orientation, vary by at most ANGLE")
+  sub->add_option(
+         "--orientation-range", command->orientation_range,
+         "Let angles of the outputs vary by at most ANGLE from their value in --at, and the orientation of a spatial robot\n"
+         "by a turn of at most ANGLE from the one in --orientation")
       ->type_name("ANGLE");
   sub->add_option("--orientation", command->orientation, "Orientation of a spatial robot, such as Rz(0.2)*Ry(10deg)*Rx(0.3)")
       ->type_name("R");
@@ -256,15 +260,17 @@ void add_clearance(CLI::App& program, Action& action) {
                   "The link or the rotation matrix that --orientation is for, if there are several")
       ->type_name("NAME");
   CLI::Option* best =
-      sub->add_option("--best", command->best,
-                      "Find the centre of the largest ball within these ranges of lengths; without --in, the ball lies in\n"
-                      "these coordinates")
+      sub->add_option(
+             "--best", command->best,
+             "Find which centre within these ranges of lengths has the largest ball; without --in, the ball lies in\n"
+             "the coordinates of these ranges")
           ->type_name("NAME=[A,B],...")
           ->allow_extra_args(false);
   CLI::Option* map =
-      sub->add_option("--map", command->map,
-                      "Compute the clearance over a grid of centres in two lengths, within these or the declared ranges;\n"
-                      "the bounds of a cell hold for every centre in it")
+      sub->add_option(
+             "--map", command->map,
+             "Compute the radius of the ball for the centres in each cell of a grid over two lengths, within the ranges\n"
+             "given here or else in the model; the bounds of a cell hold for every centre in it")
           ->type_name("NAME,NAME or NAME=[A,B],NAME=[A,B]")
           ->allow_extra_args(false)
           ->excludes(best);
@@ -289,8 +295,9 @@ void add_clearance(CLI::App& program, Action& action) {
   command->limits.add_options(*sub, "the search");
   command->json.add(*sub);
   sub->footer(
-      "Without --set, the set is forward. A coordinate that --at gives keeps its value, unless it is in the ball or has a\n"
-      "range. All other coordinates are free: the ball holds no singularity of any mode that --mode allows.\n\n"
+      "Without --set, the ball must not hold forward singularities. A coordinate with a value in --at keeps this value,\n"
+      "unless --in names the coordinate or an option gives it a range. All other coordinates may have any value in their\n"
+      "ranges. So the ball holds no singularity of any assembly or working mode within these ranges.\n\n"
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 the bounds hold, but are not as close as asked for.\n\n"
       "Examples:\n  corank clearance models/dextar.cuik --at J3x=0.5,J3y=1 --in J3x,J3y\n"
       "  corank clearance models/planar/3rpr.cuik --at pose_x=0.8,pose_y=0.5,pose_phi=0.1\\\n"

@@ -149,8 +149,10 @@ ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
 }  // namespace
 
 void add_derive(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand(
-      "derive", "Print the equations of a model: constraints, Jacobian blocks and the system of a set");
+  CLI::App* sub =
+      program.add_subcommand("derive",
+                             "Print the equations of a model: its constraints, the blocks of their Jacobian, and the system "
+                             "whose solutions are a set of configurations, such as the forward singularities");
   const auto options = std::make_shared<DeriveCommand>();
   options->question.add_options(*sub);
   sub->add_option("--format", options->format,

@@ -158,8 +158,8 @@ void add_path(CLI::App& program, Action& action) {
       ->check(CLI::IsMember({"forward", "inverse", "both"}))
       ->capture_default_str();
   sub->add_option("--radius", command->options.radius,
-                  "The clearance that the path keeps where possible, in sines and cosines of angles; for lengths it is\n"
-                  "multiplied by their typical size")
+                  "Look for a path with this radius of sines and cosines (see below); if none is found, take one with a\n"
+                  "smaller radius; default: 0")
       ->check(CLI::NonNegativeNumber);
   add_threads(*sub, command->options.threads);
   sub->add_option("--max-boxes", command->options.max_boxes, "The largest number of boxes in a cover of C-space")
@@ -167,16 +167,18 @@ void add_path(CLI::App& program, Action& action) {
       ->capture_default_str();
   add_time_limit(*sub, command->time_limit, "End after SECONDS");
   sub->add_option("-o,--output", command->output,
-                  "Write the path, if there is one, with the tube about it, for corank verify")
+                  "Write the path, if there is one, with the tube (the boxes that prove it), for corank verify")
       ->type_name("FILE.h5");
   sub->add_option("--csv", command->csv, "Write the waypoints of the path")->type_name("FILE");
   sub->add_option("--report", command->report, "Write an HTML page on which the mechanism moves along the path")
       ->type_name("FILE.html");
   command->json.add(*sub);
   sub->footer(
-      "The path keeps to the ranges, limits and inequalities of the model. It is proven that none of the avoided\n"
-      "singularities lies within the radius of the path, in sines and cosines of angles and in lengths. If no path can\n"
-      "exist, because the two configurations lie in different pieces, that is proven instead.\n\n"
+      "The path keeps to the ranges, limits and inequalities of the model. With the path corank prints two radii: one for\n"
+      "sines and cosines of angles, and one for lengths, which is the first one times the typical size of the robot's\n"
+      "lengths. It is proven that a configuration is no avoided singularity if its sines, cosines and lengths differ by at\n"
+      "most these radii from those of a point of the path. If no path exists, because singularities separate the two\n"
+      "configurations, corank may prove that instead. If it finds neither a path nor such a proof, it says so.\n\n"
       "Exit status: 0 a path, or the proof that there is none; 1 bad input; 2 wrong usage; 3 neither.\n\n"
       "Examples:\n  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 1\\\n"
       "      -o path.h5 --report path.html\n  corank verify path.h5");

@@ -17,20 +17,24 @@ std::vector<std::string> set_names(bool usual) {
   return names;
 }
 
-void QuestionOptions::add_options(CLI::App& sub) {
+void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set) {
   add_model(sub);
   std::vector<std::string> sets = set_names();
   sets.emplace_back(kNodes);
   sub.add_option("--set", set,
-                 "Which configurations of a mechanism: all (cspace), its forward, inverse or C-space singularities, the "
-                 "boundary of its workspace, the singularities of one type (ro to iim), or the cusps or nodes of a locus.\n"
-                 "nodes stands for forward-nodes or inverse-nodes, if only one of the two loci can have nodes")
+                 of_set +
+                     ": all (cspace); the forward, inverse or C-space singularities; those that are forward and inverse at "
+                     "once; the boundary of the workspace; the singularities of one type: redundant output (ro), passive "
+                     "motion (rpm) or input (ri), impossible input (ii) or output (io), increased instantaneous mobility "
+                     "(iim); or the cusps or nodes (self-crossings) of the image of the forward singularities among the "
+                     "inputs, or of the inverse ones among the outputs. nodes: forward-nodes or inverse-nodes, whichever "
+                     "the mechanism can have; an error if it can have both or neither")
       ->check(CLI::IsMember(sets));
   sub.add_option("--kernel", kernel,
-                 "Side of the kernel vector xi of the set's matrix M: right (M xi = 0) or left (M^T xi = 0);\n"
-                 "none: solve the set in parts, each with an equation of its own and no kernel vector;\n"
-                 "default: none if the set has dimension 2 or more and such equations, or would need a vector of\n"
-                 "ten unknowns or more; otherwise right if M is square or tall, left if it is wide")
+                 "A set of singularities holds the configurations at which a matrix M has a kernel vector xi. right: solve\n"
+                 "M xi = 0; left: solve M^T xi = 0; none: solve the set in parts, each with an equation of its own in\n"
+                 "place of xi. Default: none if corank finds such parts and either the set has dimension 2 or more, or M\n"
+                 "has ten rows or more; otherwise left for ii, io, and where M has more columns than rows, else right")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(sub);
   add_outputs(sub);
@@ -47,15 +51,15 @@ void QuestionOptions::add_outputs(CLI::App& sub) {
 
 void QuestionOptions::add_model(CLI::App& sub) {
   sub.add_option("FILE", file, "The model: equations (.cuik), parts (.cuik with [LINKS], or .world) or URDF (.urdf)");
-  sub.add_option("--loops", loops, "Companion of a URDF file: the joints that close loops, the inputs and the outputs")
+  sub.add_option("--loops", loops, "Companion of a URDF file: the inputs, the outputs, and the joints that close loops")
       ->type_name("FILE.loops")
       ->check(CLI::ExistingFile);
 }
 
 void QuestionOptions::add_corank(CLI::App& sub) {
   sub.add_option("--corank", corank,
-                 "Only configurations at which the kernel of the set's matrix M has dimension C or more;\n"
-                 "default: 1, all singularities")
+                 "Keep only configurations at which the kernel of the set's matrix M has dimension C or more;\n"
+                 "default: 1, which gives all singularities")
       ->type_name("C")
       ->check(CLI::PositiveNumber);
 }

@@ -24,8 +24,8 @@ struct QuestionOptions {
   std::vector<std::string> outputs;      ///< in place of the model's, for the workspace's boundary
   int corank = 1;                        ///< of the sets with a kernel
 
-  /// FILE, --loops, --set, --kernel, --corank and -D.
-  void add_options(CLI::App& sub);
+  /// FILE, --loops, --set, --kernel, --corank and -D. `of_set`: what the set is for, before the words that choose it.
+  void add_options(CLI::App& sub, const std::string& of_set = "Which configurations of a mechanism");
   /// FILE and --loops.
   void add_model(CLI::App& sub);
   void add_corank(CLI::App& sub);

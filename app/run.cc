@@ -168,7 +168,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
       "  0  done and complete\n"
       "  1  bad input\n"
       "  2  wrong usage\n"
-      "  3  incomplete: a limit or an interrupt ended the work; what is said holds\n"
+      "  3  incomplete: a limit or an interrupt ended the work early; what the output claims is proven\n"
       "  4  of verify: every claim holds, but it is not proven that no solution is missing\n"
       "  5  of solve: it is proven that the robot cannot be assembled within its ranges\n\n"
       "Example:\n  corank solve models/three_slider.cuik --set forward");

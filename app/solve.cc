@@ -221,23 +221,25 @@ ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {
 
 void add_solve(CLI::App& program, Action& action) {
   CLI::App* sub =
-      program.add_subcommand("solve", "Enclose every solution of a system, or of a set of a mechanism, in boxes");
+      program.add_subcommand("solve",
+                             "Enclose in boxes all solutions of a system of equations, or a set of a mechanism's "
+                             "configurations, such as its forward singularities");
   const auto command = std::make_shared<SolveCommand>();
   add_solve_options(*sub, *command);
   sub->footer(
-      "If the set of a robot is empty, corank solve asks whether the robot can be assembled within its ranges at all. It\n"
-      "names a configuration that is proven to exist, or proves that there is none. If rounded decimals contradict each\n"
-      "other, it proposes --tolerance.\n\n"
+      "If the set of a robot is empty, corank solve also searches the robot's ranges for any configuration. It names one\n"
+      "that is proven to exist, or proves that there is none: then the robot cannot be assembled. If the equations\n"
+      "contradict each other only because their decimals are rounded, it proposes --tolerance.\n\n"
       "Exit status:\n"
       "  0  done and complete\n"
       "  1  bad input\n"
       "  2  wrong usage\n"
-      "  3  incomplete: a limit or an interrupt ended the work; what is said holds\n"
-      "  5  complete, but every set is empty: it is proven that the robot cannot be assembled\n\n"
+      "  3  incomplete: a limit or an interrupt ended the work early; what the output claims is proven\n"
+      "  5  complete and empty: it is proven that the robot cannot be assembled within its ranges\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --sigma 0.01 -o forward.h5\n"
       "  corank solve models/three_slider.cuik --set inverse -D L2=1 --digits 50\n"
       "  corank solve models/dextar.cuik --set inverse --corank 2    # both arms stretched at once\n"
-      "  corank solve models/3rrr.cuik --set forward --sigma 0.2 --estimate    # seconds, before hours\n"
+      "  corank solve models/3rrr.cuik --set forward --sigma 0.2 --estimate    # predicts time and memory\n"
       "  corank solve models/3rrr.cuik --set forward --sigma 0.2 -o r.h5 --checkpoint r.kept --every 10m\n"
       "  corank solve --resume r.kept --threads 8    # after a limit, Ctrl-C, a crash or a power cut\n"
       "  corank solve models/dextar.cuik --set cspace --sigma 0.1 --keep-sheets -o coarse.h5\n"

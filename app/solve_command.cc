@@ -41,7 +41,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
   sub.add_option(
          "--sigma", command.sigma,
          "Largest edge of a box, in lengths and in the sines and cosines of angles; default: a share of the size of\n"
-         "the set found, 1/200 for a curve, 1/60 for a surface, 1/20 for more dimensions; inf: leave proven sheets whole")
+         "the set found, 1/200 for a curve, 1/60 for a surface, 1/20 for more dimensions; inf: do not cut the\n"
+         "sheets, the proven pieces of the set")
       ->type_name("S|inf");
   sub.add_option("--sigma-length", command.sigma_length, "The same for lengths only, in the model's unit")
       ->type_name("S|inf");
@@ -54,20 +55,20 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
       ->check(tolerance());
   command.limits.add_options(sub, "the search");
   sub.add_option("--max-solutions", command.max_solutions,
-                 "End the search after N proven boxes, or N distinct isolated solutions; 0: no limit")
+                 "End the search when N boxes are proven; boxes about the same isolated solution count once; 0: no limit")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber);
   sub.add_option("--digits", command.digits,
-                 "Give isolated points N proven digits after the point; 0: only the digits that boxes of doubles show")
+                 "Give isolated solutions with N proven decimals; 0: no more digits than their boxes show")
       ->type_name("N")
       ->check(CLI::Range(0, 1000, "a number from 0 to 1000"));
   sub.add_flag("--proof", command.proof,
                "Record the search in RESULT.h5, so that corank verify can check that no solution is missing");
   sub.add_flag(
       "--area", command.area,
-      "For --set boundary with two lengths as outputs: always bound the workspace's area, which may take long.\n"
-      "Without --area it is bounded only where the boundary suffices. The boundary does not suffice if a range that\n"
-      "is not a limit cuts the workspace, or if the model has inequalities");
+      "For --set boundary with two lengths as outputs: bound the workspace's area in any case, which may take long.\n"
+      "Without --area, the area is bounded only if it follows from the boundary. It does not follow, for example, if\n"
+      "the model has inequalities, or if a range ends the workspace although it is not declared as a limit");
   sub.add_option("-o", command.result_path,
                  "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's format if its name\n"
                  "ends in .sol")

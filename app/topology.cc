@@ -59,9 +59,10 @@ ExitStatus topology(TopologyCommand command) {
 }  // namespace
 
 void add_topology(CLI::App& program, Action& action) {
-  CLI::App* sub = program.add_subcommand(
-      "topology",
-      "Find the shape of a mechanism's C-space or of a plain system's solutions: pieces, Euler characteristic, genus");
+  CLI::App* sub =
+      program.add_subcommand("topology",
+                             "Find the shape of C-space, the set of all configurations of a mechanism, or of the solutions "
+                             "of a model without inputs and outputs: pieces, Euler characteristic, genus");
   const auto command = std::make_shared<TopologyCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
@@ -72,7 +73,8 @@ void add_topology(CLI::App& program, Action& action) {
       ->type_name("FILE.h5");
   command->json.add(*sub);
   sub->footer(
-      "Every number is proven. If corank cannot prove a number, it prints proven bounds and says what stands in the way.\n\n"
+      "Every number is proven. If corank cannot prove the exact number, it prints proven bounds and says what stands in\n"
+      "the way.\n\n"
       "Exit status: 0 done, 1 bad input or no certificate to write, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
       "Examples:\n  corank topology models/dextar.cuik\n  corank topology models/dextar.cuik -o shape.h5\n  corank verify "
       "shape.h5");

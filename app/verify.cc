@@ -135,30 +135,33 @@ void add_verify(CLI::App& program, Action& action) {
                 "Fail unless the file proves that its boxes hold all solutions in the search domain");
   add_threads(*sub, command->threads);
   sub->add_option("--sample", command->sample,
-                  "Check only N boxes, chosen at random each time, and no proof of completeness; for files that take too\n"
-                  "long to check completely; 0: all boxes (default)")
+                  "Check only N boxes, chosen at random each time, and leave out the proof that no solution is missing;\n"
+                  "for files that take too long to check completely; 0: check all (default)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->excludes("--require-proof");
   add_time_limit(*sub, command->time_limit, "End the check after SECONDS");
   sub->footer(
-      "corank verify proves every box again, from the model in the file: a regular, isolated or boundary box with\n"
-      "intervals of 160 bits, an exact box or point in exact arithmetic. An undecided box without an exact point and a\n"
-      "pending box claim nothing. A partial box cannot be checked. If the file proves that the cover is complete\n"
-      "(corank solve --proof), the proof is replayed.\n\n"
+      "corank verify proves every box again, from the model in the file. It proves regular, isolated and boundary boxes\n"
+      "with intervals of 160 bits, and exact boxes and points in exact arithmetic. Pending boxes, and undecided boxes\n"
+      "without an exact point, claim nothing, so there is nothing to check. Partial boxes are proven for some of the\n"
+      "equations only. They cannot be checked, so a file that has any is not verified (exit status 1). If the file holds\n"
+      "a proof that no solution is missing (corank solve --proof), the proof is replayed.\n\n"
       "It also checks what these commands write:\n"
-      "  corank path      the tube about the path\n"
+      "  corank path      the tube: the boxes that prove the path\n"
       "  corank topology  components, Euler characteristic and genus\n"
-      "  corank aspects   a member of each aspect and mode, its signs, and bounds of how many there are\n"
-      "  corank map       the number of each proven cell\n\n"
+      "  corank aspects   a configuration of each aspect, assembly mode and working mode, the signs of the\n"
+      "                   determinants there, and the bounds of how many of each there are\n"
+      "  corank map       the number of solutions over each proven cell\n\n"
       "Exit status:\n"
       "  0  every claim is verified, completeness included\n"
       "  1  a claim is false or cannot be checked, or the file cannot be read\n"
       "  2  wrong usage\n"
       "  3  ended early by a limit, an interrupt or --sample; nothing wrong was found until then\n"
-      "  4  every claim is verified, but not completeness: the file has no proof that no solution, aspect\n"
-      "     or mode is missing, or its search had ended early, or the proof could not be shown next to a\n"
-      "     self-motion; with --require-proof: 1\n\n"
+      "  4  every claim is verified, but it is not proven that no solution, aspect or mode is missing: the\n"
+      "     file has no proof of that, or its search had ended early, or a part of the proof could not be\n"
+      "     checked near a self-motion (a set of larger dimension than the count of equations says);\n"
+      "     if you give --require-proof, the status is 1 instead\n\n"
       "Examples:\n  corank solve models/dextar.cuik --set forward --proof -o forward.h5\n  corank verify forward.h5\n"
       "  corank topology models/dextar.cuik -o shape.h5\n  corank verify shape.h5");
   sub->callback([command, &action] { action = [command] { return verify(*command); }; });

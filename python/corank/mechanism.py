@@ -306,10 +306,10 @@ class Mechanism:
 
         Args:
             halvings, rounds: limits of how finely cells are divided.
-            cusps: find the cusps of both loci, and the aspect in which each cusp lets the posture or the assembly mode
-                change.
-            areas: if the two outputs are lengths: bound the area that each aspect covers, and say which aspects share
-                outputs.
+            cusps: find the cusps of both loci, and for each cusp the aspect in which the robot can move around it, from one
+                configuration to another with the same inputs or the same outputs.
+            areas: if the two outputs are lengths: bound the area of the outputs that each aspect reaches, and say which
+                aspects have outputs in common.
             certificate: keep the proofs of the numbers, for save() and verify().
             time_limit: in seconds; 0: no limit.
         """

@@ -159,7 +159,7 @@ def path(
             the solutions.
         start_mode, end_mode: the number of the solution, if there are several; without it, a ValueError lists them.
         avoid: "forward", "inverse" or "both". The path also keeps to ranges, limits and inequalities.
-        radius: the clearance that the path keeps where possible.
+        radius: look for a path with this radius of sines and cosines; if none is found, take one with a smaller radius.
         max_boxes: the largest number of boxes in a cover of C-space; 0: corank's default.
         time_limit: in seconds; 0: no limit.
     """
