@@ -33,7 +33,13 @@ Interval half_way(const Interval& x, double c) { return scale(0.5, x + Interval(
 }  // namespace
 
 CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial> values) : variables_(system.size()) {
-  for (const Variable& v : system.variables) scales_.push_back(v.size);
+  for (int j = 0; j < variables_; ++j) {
+    const Variable& v = system.variables[j];
+    scales_.push_back(v.size);
+    if (!v.is_parameter()) continue;
+    parameters_.push_back(j);
+    parameter_domains_.push_back(v.domain);
+  }
   system.validate();
   equations_ = static_cast<int>(system.equations.size());
   rows_ = equations_ + static_cast<int>(system.inequalities.size());
@@ -91,6 +97,10 @@ CompiledSystem::CompiledSystem(const System& system, std::span<const Polynomial>
     rows_of_.insert(rows_of_.end(), list.begin(), list.end());
     rows_of_begin_.push_back(static_cast<int>(rows_of_.size()));
   }
+}
+
+void CompiledSystem::free_parameters(std::span<Interval> x) const {
+  for (std::size_t k = 0; k < parameters_.size(); ++k) x[parameters_[k]] = parameter_domains_[k];
 }
 
 void CompiledSystem::set_scales(std::vector<double> scales) {

@@ -38,6 +38,12 @@ class CompiledSystem {
   void set_scales(std::vector<double> scales);
 
   int variables() const { return variables_; }
+  /// Those that are parameters (Variable::parameter), ascending.
+  const std::vector<int>& parameters() const { return parameters_; }
+  /// How many are none.
+  int unknowns() const { return variables_ - static_cast<int>(parameters_.size()); }
+  /// Gives each parameter its whole domain: what is then proven of x holds for every robot, and nothing of x is lost.
+  void free_parameters(std::span<Interval> x) const;
   int equations() const { return equations_; }
   int inequalities() const { return rows() - equations_; }
   int rows() const { return rows_; }                     ///< equations and inequalities
@@ -91,6 +97,8 @@ class CompiledSystem {
   std::vector<GeneralFactor> factors_;
   std::vector<int> term_begin_, row_begin_, columns_, rows_of_, rows_of_begin_;
   std::vector<double> scales_;
+  std::vector<int> parameters_;
+  std::vector<Interval> parameter_domains_;
 };
 
 }  // namespace corank::certify

@@ -11,13 +11,14 @@ namespace corank::certify {
 
 enum class Identity { same, different, unknown };
 
-/// For two sheets without free variables (isolated solutions, each unique in its region and lying in its image).
-/// Disjoint images ⇒ different. One's image inside the other's region ⇒ the same, by uniqueness there. Else nothing is
-/// proven. Where the sheets' proofs rest on different rows, `same` is about a solution of all equations, if there is one.
+/// For two sheets without free variables but parameters, which have their whole domains (isolated solutions, for each robot
+/// unique in its region and lying in its image). Disjoint images ⇒ different. One's image inside the other's region ⇒ the
+/// same, by uniqueness there. Else nothing is proven. Where the sheets' proofs rest on different rows, `same` is about a
+/// solution of all equations, if there is one.
 Identity compare_isolated(const Sheet& a, const Sheet& b);
 
 /// True where every solution in the box is the sheet's solution, so that the box adds nothing to the sheet's image: the box
-/// lies in the sheet's region. For sheets without free variables.
+/// lies in the sheet's region. For sheets as above.
 bool holds_nothing_else(const Sheet& sheet, std::span<const Interval> box);
 
 /// True where a zero of the reduced system is the isolated solution whose proof has this region, given in all variables:

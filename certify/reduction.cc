@@ -33,6 +33,8 @@ Rewriting::Rewriting(const System& system, bool tolerant, std::vector<int> param
     for (const Polynomial& f : *rows)
       for (const Monomial& m : f.monomials)
         if (m.is_trigonometric()) stays_[m.factors[0].variable] = true;
+  for (int j = 0; j < system_.size(); ++j)
+    if (system_.variables[j].is_parameter()) parameters_.push_back(j);
   for (const int p : parameters_) stays_[p] = true;
   // From here on the tolerance stands in the enclosures.
   if (tolerant_)
@@ -40,7 +42,8 @@ Rewriting::Rewriting(const System& system, bool tolerant, std::vector<int> param
       for (Polynomial& f : *rows) widen(f, system_.coefficient_tolerance);
   const std::vector<ImpliedSides> implied = implied_domains(system_);
   for (std::size_t j = 0; j < implied.size(); ++j)
-    system_.variables[j].lower_implied = implied[j].lower, system_.variables[j].upper_implied = implied[j].upper;
+    if (!system_.variables[j].is_parameter())
+      system_.variables[j].lower_implied = implied[j].lower, system_.variables[j].upper_implied = implied[j].upper;
   const UpwardRounding rounding;
   given_ = static_cast<int>(system_.equations.size());
   for (const Polynomial& f : system_.equations) {

@@ -55,7 +55,8 @@ struct Reduction {
 class Rewriting {
  public:
   /// `tolerant`: enclosures carry the coefficient tolerance; else all is about the exact coefficients.
-  /// `parameters` are variables for each of whose values the question is asked: they stay, with their domains as they are.
+  /// `parameters`, besides the system's own, are variables for each of whose values the question is asked: they stay, with
+  /// their domains as they are.
   /// What a variable that is eliminated says about a parameter becomes an inequality. So for *every* value of the parameters
   /// there is the bijection of the theorem (read its proof for fixed parameters), and a range of the parameters may be put
   /// in their places in both systems.
@@ -103,7 +104,7 @@ class Rewriting {
   System system_;
   const bool tolerant_;
   const std::function<void()> poll_;
-  const std::vector<int> parameters_;
+  std::vector<int> parameters_;
   std::vector<bool> gone_, stays_;
   std::vector<std::pair<int, Polynomial>> definitions_;
   std::vector<ReductionStep> steps_;

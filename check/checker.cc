@@ -131,7 +131,8 @@ class Checker {
     if (std::ranges::find(used, 0) != used.end()) fail(Place::cover, 0, "a region belongs to no box");
     if (!cover_.regions.empty() && problem_->contradiction()) fail(Place::cover, 0, "the equations contradict each other");
     if (problem_->contradiction()) return;
-    const int dimension = std::max(0, problem_->size() - static_cast<int>(problem_->equations().size()));
+    const int dimension =
+        std::max(0, problem_->size() - static_cast<int>(problem_->equations().size()) - system_.parameters());
     if (cover_.count(Verdict::partial) == 0 && cover_.dimension != dimension)
       fail(Place::cover, 0,
            "the set has dimension " + std::to_string(dimension) + ", not " + std::to_string(cover_.dimension));

@@ -292,10 +292,17 @@ class Replay {
     }
   }
 
+  // Is one solution for each value of its free variables what the box claims?
+  static bool has_sheet(const CoverBox& box) {
+    const bool claims =
+        box.verdict == Verdict::regular || box.verdict == Verdict::isolated || box.verdict == Verdict::boundary;
+    return claims && box.region >= 0;
+  }
+
   // Do the box's sides of eliminated variables hold their values over x? Of a sheet's box that is checked with its sheet.
   bool holds_values(const Sides& x, int i) const {
     const CoverBox& box = cover_.boxes[i];
-    if (box.verdict == Verdict::regular || box.verdict == Verdict::isolated || box.verdict == Verdict::boundary) return true;
+    if (has_sheet(box)) return true;
     return std::ranges::all_of(problem_.values(), [&](const Problem::Value& v) {
       const Variable& variable = problem_.system().variables[v.variable];
       Enclosure value = v.row.value(x);
@@ -304,13 +311,12 @@ class Replay {
     });
   }
 
-  // Between which bounds the solutions are to be shown that are said to lie in box i: the box, or, on a self-motion, next to
-  // which the equations say little, what the box's own claim is about: for every value of its free variables there is one
-  // solution in its region, and it is in the box.
+  // Between which bounds the solutions are to be shown that are said to lie in box i: the box, or what its own claim is
+  // about, which is checked besides: for every value of its free variables there is one solution in its region, and it is in
+  // the box. So a solution in the region with such values is in the box.
   std::vector<Interval> bounds_of(int i) const {
     const CoverBox& box = cover_.boxes[i];
-    const bool on_motion = box.motion >= 0 && box.region >= 0 && box.verdict == Verdict::regular;
-    const Box& dependent = on_motion ? cover_.regions.at(box.region) : box.box;
+    const Box& dependent = has_sheet(box) ? cover_.regions.at(box.region) : box.box;
     std::vector<Interval> bounds;
     for (const int j : problem_.kept()) {
       const bool is_free = std::ranges::find(box.free, j) != box.free.end();

@@ -242,7 +242,10 @@ std::vector<int> variables_of(const RowMatrix& matrix) {
 
 std::vector<double> domain_lengths(const System& system) {
   std::vector<double> lengths;
-  for (const Variable& v : system.variables) lengths.push_back(v.domain.width() > 0 ? v.domain.width() : 1);
+  for (const Variable& v : system.variables) {
+    const double length = v.is_parameter() ? v.domain.mag() : v.domain.width();
+    lengths.push_back(length > 0 ? length : 1);
+  }
   return lengths;
 }
 

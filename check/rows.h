@@ -69,7 +69,8 @@ std::vector<Sides> values(const RowMatrix& matrix, const Sides& x);
 /// Of all entries, ascending.
 std::vector<int> variables_of(const RowMatrix& matrix);
 
-/// Of each variable the width of its domain, 1 where it has none: by their share of it sides of unlike units compare.
+/// Of each variable the width of its domain, of a parameter its size; 1 where that is 0. By their share of it sides of
+/// unlike units compare.
 std::vector<double> domain_lengths(const System& system);
 
 /// The halves of x, cut in the middle of one of these sides: of those that can be cut, the one that is widest in units of

@@ -86,6 +86,9 @@ bool Search::own_combination(const Sides& x, LinearCombination& p, std::vector<d
     for (std::size_t k = 0; k < entries.size(); ++k) jacobian[i][f.columns()[k]] = entries[k];
   }
   std::vector<std::vector<double>> scaled = jacobian;
+  for (std::size_t j = 0; j < n; ++j)  // what the others are solved for
+    if (problem_.system().variables[problem_.kept()[j]].is_parameter())
+      for (std::vector<double>& row : scaled) row[j] = 0;
   for (std::vector<double>& row : scaled) {
     double most = 1e-300;
     for (const double entry : row) most = std::max(most, std::fabs(entry));

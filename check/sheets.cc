@@ -42,7 +42,12 @@ class SheetCheck {
       if (!is_free_[problem_.kept()[k]]) dependent_.push_back(static_cast<int>(k));
     if (dependent_.size() != equations_.size())
       return "the equations that remain are not as many as the dependent variables";
-    if ((box_.verdict == Verdict::isolated && !box_.free.empty()) || (box_.verdict == Verdict::regular && box_.free.empty()))
+    for (std::size_t j = 0; j < n; ++j)
+      if (const Variable& v = problem_.system().variables[j];
+          v.is_parameter() && !(is_free_[j] && box_.box[j].contains(v.domain)))
+        return "it does not hold for every value of " + v.name;
+    const bool is_point = std::cmp_equal(box_.free.size(), problem_.system().parameters());
+    if (box_.verdict == (is_point ? Verdict::regular : Verdict::isolated))
       return "its free variables contradict its verdict";
     return contains(region_, box_.box) ? "" : "it is not inside the region of its proof";
   }

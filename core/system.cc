@@ -38,7 +38,11 @@ void widen(Polynomial& f, double tolerance) {
   }
 }
 
-int System::dimension() const { return std::max(0, size() - static_cast<int>(equations.size())); }
+int System::parameters() const {
+  return static_cast<int>(std::ranges::count_if(variables, [](const Variable& v) { return v.is_parameter(); }));
+}
+
+int System::dimension() const { return std::max(0, size() - static_cast<int>(equations.size()) - parameters()); }
 
 int System::find(const std::string& variable_name) const {
   const auto it = std::ranges::find_if(variables, [&](const Variable& v) { return v.name == variable_name; });

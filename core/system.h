@@ -19,9 +19,11 @@
 
 namespace corank {
 
-/// What a variable stands for; auxiliary: a sine, a cosine or a sum of lengths, defined by an equation of its own. Only for
-/// reports and heuristics: no proof depends on it.
-enum class VariableKind : std::uint8_t { length, cosine, sine, kernel, auxiliary };
+/// What a variable stands for; auxiliary: a sine, a cosine or a sum of lengths, defined by an equation of its own;
+/// parameter: a constant that is known within a tolerance, its domain, where each value belongs to another robot. Every
+/// proof about a box leaves parameters free over their whole domains, so that it holds for every robot. The other kinds are
+/// only for reports and heuristics: no proof depends on them.
+enum class VariableKind : std::uint8_t { length, cosine, sine, kernel, auxiliary, parameter };
 
 struct Variable {
   std::string name;
@@ -34,6 +36,7 @@ struct Variable {
   /// A typical size of its changes, positive, so that no choice depends on the model's unit of length. Only for heuristics.
   double size = 1;
 
+  bool is_parameter() const { return kind == VariableKind::parameter; }
   /// One of the model's own lengths.
   bool is_plain_length() const { return kind == VariableKind::length && !direction && !auxiliary; }
 
@@ -80,7 +83,9 @@ struct System {
   int size() const { return static_cast<int>(variables.size()); }
   /// Of each variable the enclosure of its search domain.
   std::vector<Interval> domain() const;
-  /// max(0, n − m): the dimension of the solution set where the equations are independent.
+  /// How many of the variables are parameters.
+  int parameters() const;
+  /// max(0, n − m − parameters): the dimension of each robot's solution set where the equations are independent.
   int dimension() const;
   /// Index of the variable, or −1.
   int find(const std::string& variable_name) const;

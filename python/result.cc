@@ -97,7 +97,7 @@ py::list exact_points(const Result& r) {
 }
 
 py::list variables(const Result& r) {
-  static constexpr std::array kKinds{"length", "cosine", "sine", "kernel", "auxiliary"};
+  static constexpr std::array kKinds{"length", "cosine", "sine", "kernel", "auxiliary", "parameter"};
   py::list list;
   for (const result::ResultVariable& v : r->variables)
     list.append(py::make_tuple(v.name, kKinds[static_cast<std::size_t>(v.kind)], v.domain.lo(), v.domain.hi()));

@@ -8,6 +8,7 @@
 #include "corank/solve/reduction/reducer.h"
 #include "corank/solve/search/solve.h"
 #include "corank/solve/step/propagation.h"
+#include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/sets/algebrizer.h"
 
 namespace corank::study {
@@ -28,6 +29,7 @@ void settle_sizes(System& system) {
     if (system.variables[j].is_plain_length()) length = std::max(length, typical[j]);
   for (std::size_t j = 0; j < typical.size(); ++j) {
     Variable& v = system.variables[j];
+    if (v.is_parameter()) continue;
     if (v.kind == VariableKind::length && !v.direction) v.size = unit_of(v.auxiliary ? typical[j] : length);
     if (v.kind == VariableKind::auxiliary) v.size = unit_of(typical[j]);
   }
@@ -64,8 +66,22 @@ bool is_better_than_whole(const Question& part) {
 
 }  // namespace
 
+void require_exact_constants(const symbolic::Mechanism& model, const std::string& asker) {
+  for (const symbolic::Constant& c : model.constants())
+    if (c.tolerance)
+      throw symbolic::ModelError(
+          c.where.line > 0 ? c.where : symbolic::SourceLocation{model.name(), 0, 0},
+          "the constant " + symbolic::in_quotes(c.name) + " has a tolerance, but " + asker + " answers for one robot",
+          "one value, for example -D " + c.name + "=" + c.value.text());
+}
+
 std::vector<Question> parts_of(const Question& question, const Ended& ended) {
   if (!question.set) return {question};
+  if (!question.model.toleranced().empty()) {  // a factor, and what meets at a limit, is one robot's
+    if (definition(question.set).of_parts) require_exact_constants(question.model, "a workspace's boundary");
+    if (question.in_parts.value_or(false)) require_exact_constants(question.model, "a set that is solved in parts");
+    return {question};
+  }
   const Components wanted = components_wanted(question);
   if (!definition(question.set).of_parts && wanted == Components::no) return {question};
   std::vector<Question> parts;
@@ -116,7 +132,10 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
   if (const auto* limits = question.part ? std::get_if<symbolic::BoundaryPart>(&*question.part) : nullptr)
     system.passage = symbolic::passage_form(question.model, *limits, equations);
   settle_sizes(system);
-  system.coefficient_tolerance = question.tolerance.value_or(question.set ? 0 : solve::printed_tolerance(system));
+  if (system.parameters() > 0 && question.tolerance.value_or(0) > 0)
+    require_exact_constants(question.model, "a system whose coefficients have a tolerance");
+  system.coefficient_tolerance =
+      question.tolerance.value_or(question.set || system.parameters() > 0 ? 0 : solve::printed_tolerance(system));
   return system;
 }
 

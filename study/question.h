@@ -27,6 +27,9 @@ struct Question {
   std::optional<double> tolerance{};  ///< of coefficients, relative; nothing: printed_tolerance() of a plain system, else 0
 };
 
+/// Throws ModelError where a constant is known within a tolerance only: `asker` answers for one robot.
+void require_exact_constants(const symbolic::Mechanism& model, const std::string& asker);
+
 /// Of a set that is solved in parts the question about each of them (symbolic/sets/set_parts.h); of another set the question
 /// itself. A union, or a set that has an equation in place of the kernel vector, is solved so where it has dimension 2 or
 /// more, or the robot has written-out parallelograms, along whose flat positions parts coincide; where it is asked for

@@ -33,6 +33,7 @@ std::vector<int> signs_of_determinant(const symbolic::TrigonometricSystem& equat
 
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control) {
   Aspects result;
+  study::require_exact_constants(question.model, "corank aspects");
   question.set = symbolic::SingularitySet::cspace;
   const symbolic::TrigonometricSystem equations = study::equations(question);
   result.system = study::system(question, equations);

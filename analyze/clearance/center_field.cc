@@ -76,6 +76,7 @@ System assembled_system(const study::Question& question, const Ball& ball, const
 CenterField::CenterField(const study::Question& question, BallOptions ball, const std::vector<NamedRange>& region,
                          const solve::Options& search, solve::Control& control)
     : search_(search), control_(control) {
+  study::require_exact_constants(question.model, "a search over centres");
   for (const NamedRange& range : region) {
     if (std::ranges::find(names_, range.name) != names_.end())
       throw question_error(question, "'" + range.name + "' is twice in the region", "each once");

@@ -45,6 +45,24 @@ constexpr double kSigma = 1e-3;      // a witness is far narrower
 // The number as a decimal, which a model's text shows.
 symbolic::Expression decimal(double x) { return symbolic::parse_expression(fmt::format("{:.17g}", x), "radius"); }
 
+// The configurations of all robots: a parameter is a variable like any other, and may be divided.
+System of_any_robot(System system) {
+  for (Variable& v : system.variables) {
+    if (!v.is_parameter()) continue;
+    v.kind = VariableKind::length;
+    v.auxiliary = false;
+    v.lower_implied = v.upper_implied = false;  // what becomes of a variable that is eliminated has to keep to its domain
+  }
+  return system;
+}
+
+// The robot that a box in the system's variables belongs to.
+void choose_robot(const System& system, const Box& box, symbolic::Mechanism& model) {
+  for (int j = 0; j < system.size(); ++j)
+    if (const Variable& v = system.variables[j]; v.is_parameter()) model.set_constant(v.name, decimal(box[j].mid()));
+  model.set_source_text(symbolic::to_model(model));
+}
+
 study::Question within(const Clearance& clearance, double radius) {
   study::Question question = clearance.ball.question;
   question.model = clearance.ball.within(decimal(radius));
@@ -84,14 +102,18 @@ Clearance clearance(const study::Question& question, const BallOptions& options,
                            "values that it can take, within the ranges of the model and those that are given");
   }
   stage.reset();
-  const solve::Prepared prepared = solve::prepare(system, search, control);
+  const solve::Prepared prepared = solve::prepare(of_any_robot(system), search, control);
   const std::vector<Polynomial> differences = symbolic::polynomials(equations, result.ball.differences());
   // A singularity at the centre itself, but for rounding: no share of such a distance is to be had.
   const double nothing = kNothing * (std::isfinite(result.ball.room) ? result.ball.room : 1.0);
   result.nearest = nearest(prepared, differences,
                            {.precision = wanted.precision, .enough = nothing, .progress = wanted.progress}, control);
   if (result.nearest.upper && *result.nearest.upper <= nothing) result.nearest.complete = true;
-  if (result.nearest.upper) result.values = coordinate_values(system, result.nearest.box);
+  if (result.nearest.upper) {
+    result.values = coordinate_values(system, result.nearest.box);
+    for (int j = 0; j < system.size(); ++j)
+      if (system.variables[j].is_parameter()) result.robot.push_back({system.variables[j].name, result.nearest.box[j]});
+  }
   if (!result.nearest.unproven.empty()) {
     const Box point(result.nearest.unproven.begin(), result.nearest.unproven.end());
     for (const CoordinateValue& v : coordinate_values(system, point)) result.seemingly.emplace_back(v.name, v.value.mid());
@@ -105,14 +127,23 @@ result::Result claim_free(const Clearance& clearance, const solve::Options& sear
   const study::Question question = within(clearance, clearance.nearest.lower * (1 - kGivenAway));
   study::Options options{search, 0};
   options.search.proof = true;
-  return study::answer(question, study::system(question), options, control);
+  const System system = study::system(question);
+  // Pieces of the set just outside the ball, of robots just outside their tolerances, have to be told from those inside.
+  if (system.parameters() > 0 && clearance.nearest.upper && *clearance.nearest.upper > clearance.nearest.lower)
+    options.search.sigma = 0.5 * (*clearance.nearest.upper - clearance.nearest.lower);
+  result::Result result = study::answer(question, of_any_robot(system), options, control);
+  result::describe_system(system, result);
+  result.system_text = symbolic::to_cuik(system);
+  result.cover.dimension = system.dimension();
+  return result;
 }
 
 std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::Control& control) {
   if (!clearance.nearest.upper) return std::nullopt;
-  const study::Question question = within(clearance, *clearance.nearest.upper * (1 + kGivenAway));
+  study::Question question = within(clearance, *clearance.nearest.upper * (1 + kGivenAway));
   // Narrower ranges would scale the kernel vector otherwise; the point that is known is in the scales of the search.
   const System searched = study::system(clearance.ball.question);
+  choose_robot(searched, clearance.nearest.box, question.model);
   result::Result result;
   result.model = question.model.name();
   result.model_text = question.model.source_text();
@@ -132,7 +163,8 @@ std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::C
   certify::CompiledSystem compiled(reduction.system, solve::values_of(reduction));
   compiled.set_scales(solve::typical_sizes(compiled, reduction.system.domain()).variables);
   std::vector<double> point;
-  for (const int v : reduction.kept) point.push_back(clearance.nearest.box.at(v).mid());
+  for (const int v : reduction.kept)
+    point.push_back(clearance.nearest.box.at(searched.find(system.variables[v].name)).mid());
   solve::PreconditionerFactory preconditioners(compiled);
   certify::NewtonWorkspace workspace;
   const auto witness = prove_near(compiled, certify::DomainTest(reduction.system), point, preconditioners, workspace);

@@ -37,6 +37,7 @@ struct Clearance {
   Nearest nearest;
   std::vector<CoordinateValue> at;                        ///< of the ball's coordinates, the centre's enclosures
   std::vector<CoordinateValue> values;                    ///< of the nearest proven singularity: the model's coordinates
+  std::vector<CoordinateValue> robot;                     ///< that has it: its constants, those with a tolerance
   std::vector<std::pair<std::string, double>> seemingly;  ///< of a nearer point where nothing could be proven; no claim
   std::string stopped;                                    ///< what ended the search early; empty: nothing
   double seconds = 0;
@@ -57,7 +58,8 @@ std::string rounded(double x, bool up);
 /// A few lines for a terminal.
 std::string to_table(const Clearance& clearance);
 /// {"model", "set", "at": {name: value}, "in": [names], "radius": {"lo", "hi" (null: none was proven)}, "nearest" (null, or
-/// {name: {"lo", "hi"}}), "empty", "room" (null: infinite), "end" (that the ball meets at
+/// {name: {"lo", "hi"}}), "robot" (that has it: {constant with a
+/// tolerance: {"lo", "hi"}}), "empty", "room" (null: infinite), "end" (that the ball meets at
 /// that radius), "ball" (free_radius()), "seemingly" (null, or {"distance", "values"}), "center",
 /// "complete", "stopped", "precision", "processed", "seconds"}.
 std::string to_json(const Clearance& clearance);

@@ -30,6 +30,9 @@ std::string to_table(const Clearance& c) {
                                  fmt::join(c.ball.names(), ", "), fmt::join(at, ", "));
   const Nearest& n = c.nearest;
   const std::string what = c.ball.question.set ? "singularity" : "solution";
+  if (const auto toleranced = c.ball.question.model.toleranced(); !toleranced.empty())
+    text += fmt::format("for every robot within the tolerance{} of {}\n", toleranced.size() == 1 ? "" : "s",
+                        fmt::join(toleranced, ", "));
   if (n.empty) {
     text += fmt::format("it is proven that there is no {} in the ranges", what);
     text += std::isfinite(c.ball.room)
@@ -53,6 +56,8 @@ std::string to_table(const Clearance& c) {
       text += fmt::format("  nearest {} found, proven to exist{}:\n", what,
                           ends_first ? fmt::format(", at a distance of at most {}", hi) : "");
       for (const CoordinateValue& v : c.values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+      if (!c.robot.empty()) text += "  of the robot with\n";
+      for (const CoordinateValue& v : c.robot) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
     } else {
       text += fmt::format("  no {} is proven to exist\n", what);
     }
@@ -73,6 +78,7 @@ std::string to_json(const Clearance& c) {
   json["in"] = c.ball.names();
   json["radius"] = {{"lo", finite(c.lower())}, {"hi", or_null(n.upper)}};
   json["nearest"] = n.upper ? ends_of(c.values) : Json();
+  json["robot"] = ends_of(c.robot);
   json["empty"] = n.empty;
   json["room"] = finite(c.ball.room);
   json["end"] = or_null(c.ball.end);

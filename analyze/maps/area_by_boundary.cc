@@ -167,6 +167,7 @@ bool has_no_other_ends(const symbolic::Mechanism& model, const System& system, i
 
 std::optional<AreaBounds> area_by_boundary(const study::Question& question, const BoundaryAreaOptions& options,
                                            solve::Control& control) {
+  study::require_exact_constants(question.model, "the area of a workspace");
   const std::vector<std::string>& outputs = question.model.outputs();
   const System system = symbolic::configurations(question.model);
   if (outputs.size() != 2 || symbolic::algebrize(symbolic::plain_system(question.model)).size() != system.size())

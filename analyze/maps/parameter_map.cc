@@ -128,6 +128,7 @@ void ParameterMapper::Parts::make_folds() {
 ParameterMapper::ParameterMapper(MapQuestion question, const ParameterMapOptions& options) {
   auto parts = std::make_unique<Parts>(Parts{std::move(question), options, {}, {}});
   const MapQuestion& q = parts->question;
+  study::require_exact_constants(q.question.model, "corank map");
   const symbolic::Mechanism& model = q.question.model;
   const symbolic::SourceLocation place{model.name(), 0, 0};
   if (q.over.size() != 2) throw ModelError(place, "a map has two parameters", "--over NAME=FROM:TO twice");

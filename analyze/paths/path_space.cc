@@ -29,6 +29,7 @@ bool is_square(const std::vector<int>& rows, const PolynomialMatrix& m) {
 }  // namespace
 
 PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factors) : question_(std::move(question)) {
+  study::require_exact_constants(question_.model, "corank path");
   question_.set = symbolic::SingularitySet::cspace;
   question_.corank = 1;
   equations_ = study::equations(question_);

@@ -279,6 +279,7 @@ std::shared_ptr<const Shape> certificate(const Topology& result, Solved& space, 
 }  // namespace
 
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
+  study::require_exact_constants(question.model, "corank topology");
   question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
   question.corank = 1;
   question.tolerance = 0;

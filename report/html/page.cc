@@ -53,7 +53,7 @@ std::string found_html(const result::Result& result) {
 /// The constants that were given with -D.
 std::string overridden_html(const result::Result& result) {
   return result::joined(result.options.constants, [](const result::ConstantOverride& c) {
-    return constant_html(c.name, symbolic::parse_expression(c.expression, "-D " + c.name));
+    return constant_html(c.name, symbolic::parse_constant(c.name, c.expression, "-D " + c.name).value);
   });
 }
 

@@ -20,7 +20,7 @@ constexpr int kOldest = 3;  // with one sigma, without reasons, larger kernels a
 constexpr int kMostCorank = 1000, kMostParts = 1000, kMostOfCounted = 1'000'000'000, kMostThreads = 1'000'000;
 
 const EnumWords kReasonWords = words_of<Reason>(kReasons), kPassageWords = words_of<Passage>(kPassages);
-const EnumWords kKindWords{"length", "cosine", "sine", "kernel", "auxiliary"};
+const EnumWords kKindWords{"length", "cosine", "sine", "kernel", "auxiliary", "parameter"};
 
 constexpr auto kVariableFields = [](auto& field, auto& variable) {
   field("names", variable.name);

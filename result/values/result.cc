@@ -29,7 +29,8 @@ std::string version() { return CORANK_VERSION; }
 void describe_system(const System& system, Result& result) {
   result.variables.clear();
   for (const Variable& v : system.variables)
-    result.variables.push_back({v.name, v.kind, v.domain, v.auxiliary || v.kind == VariableKind::auxiliary});
+    result.variables.push_back(
+        {v.name, v.kind, v.domain, v.auxiliary || v.kind == VariableKind::auxiliary || v.is_parameter()});
   result.angles = system.angles;
   result.configuration_size = system.configuration_size;
   result.equations = static_cast<int>(system.equations.size());
@@ -37,8 +38,10 @@ void describe_system(const System& system, Result& result) {
 }
 
 void put_in(const std::vector<ConstantOverride>& constants, symbolic::Mechanism& model) {
-  for (const auto& [name, expression] : constants)
-    model.set_constant(name, symbolic::parse_expression(expression, "-D " + name));
+  for (const auto& [name, expression] : constants) {
+    const symbolic::Constant read = symbolic::parse_constant(name, expression, "-D " + name);
+    model.set_constant(name, read.value, read.tolerance);
+  }
 }
 
 void put_in(const std::vector<std::string>& outputs, symbolic::Mechanism& model) {

@@ -206,13 +206,22 @@ std::string along_set_text(const Cover& cover) {
 
 namespace {
 
-std::string in_words(Reason reason, const Cover& cover) {
+std::vector<const ResultVariable*> parameters_of(const Result& result) {
+  std::vector<const ResultVariable*> list;
+  for (const ResultVariable& v : result.variables)
+    if (v.kind == VariableKind::parameter) list.push_back(&v);
+  return list;
+}
+
+std::string in_words(Reason reason, const Result& result) {
+  const Cover& cover = result.cover;
   using enum Reason;
   switch (reason) {
     case none: break;
     case degenerate_point: return "next to a degenerate solution, where the Jacobian does not have full rank";
     case degenerate_set: return along_set_text(cover);
     case tolerance:
+      if (!parameters_of(result).empty()) return "within the tolerances, robots may differ here";
       return "the coefficients' tolerance moves the solutions too far, or it is not shown that redundant equations hold";
     case precision: return "doubles cannot divide them further";
     case limit: return "a limit ended the search before they were divided further";
@@ -228,10 +237,10 @@ std::string motions_text(const Result& result) {
   return text;
 }
 
-std::string reasons_text(const Cover& cover) {
+std::string reasons_text(const Result& result) {
   std::string text;
-  for (const auto& [reason, n] : undecided_reasons(cover))
-    text += fmt::format("  undecided, {}: {}\n", n, in_words(reason, cover));
+  for (const auto& [reason, n] : undecided_reasons(result.cover))
+    text += fmt::format("  undecided, {}: {}\n", n, in_words(reason, result));
   return text;
 }
 
@@ -245,6 +254,10 @@ std::string to_table(const Result& result) {
                   counted(result.equations, "equation"), counted(result.inequalities, "inequality"), cover.dimension);
   text += fmt::format("{}{}{}\n", sigma_text(cover.sigma), result.options.kernel.empty() ? "" : ", kernel ",
                       result.options.kernel);
+  if (const auto parameters = parameters_of(result); !parameters.empty())
+    text += fmt::format("for every robot with {}\n", joined(parameters, [](const ResultVariable* v) {
+                          return fmt::format("{} in [{:.10g}, {:.10g}]", v->name, v->domain.lo(), v->domain.hi());
+                        }));
   if (!result.domain.found.empty()) text += found_ranges_text(result);
   text += cover.complete() ? "complete: every solution in the search domain is in a box\n"
                            : "INCOMPLETE: the search ended early; solutions may also be in the pending boxes\n";
@@ -265,7 +278,7 @@ std::string to_table(const Result& result) {
       text += fmt::format("  {:<10}  {:>10}\n", to_string(verdict), n);
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
-  text += reasons_text(cover);
+  text += reasons_text(result);
   if (result.seems_of_corank > result.options.corank)
     text += fmt::format("    the kernel there seems to have dimension {0}: try --corank {0}, or --kernel none\n",
                         result.seems_of_corank);
@@ -274,8 +287,9 @@ std::string to_table(const Result& result) {
   if (const std::size_t wide = cover.wider_than_sigma; wide > 0)
     text += fmt::format("  {} wider than sigma: {}\n", wide,
                         !result.stopped.empty() ? "the search ended before they were cut"
-                        : cover.tolerance > 0   ? "the tolerance keeps proven boxes from narrowing"
-                                                : "cutting does not make them narrower, since doubles resolve no more");
+                        : cover.tolerance > 0 || !parameters_of(result).empty()
+                            ? "the tolerance keeps proven boxes from narrowing"
+                            : "cutting does not make them narrower, since doubles resolve no more");
   if (cover.tolerance > 0) {
     const bool over_determined = static_cast<std::size_t>(result.equations) > result.variables.size();
     text += fmt::format("\n{} within a relative tolerance of {:g};\n",

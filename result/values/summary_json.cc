@@ -220,6 +220,9 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
     const ResultVariable& v = result.variables[j];
     json["ranges_found"][v.name] = ends(v.domain);
   }
+  json["tolerances"] = Json::object();
+  for (const ResultVariable& v : result.variables)
+    if (v.kind == VariableKind::parameter) json["tolerances"][v.name] = ends(v.domain);
   json["points"] = nullptr;
   if (cover.dimension == 0) {
     json["points"] = Json::array();

@@ -51,6 +51,7 @@ const ExactPoint* exact_point(const Result& result, const CoverBox& box) {
 std::vector<Value> own_coordinates(const Result& result, int variables) {
   std::vector<Value> list;
   for (int i = 0; i < variables; ++i) {
+    if (result.variables[i].kind == VariableKind::parameter) continue;  // it has its whole domain everywhere
     const auto has = [i](const Angle& a) { return a.cosine == i || a.sine == i; };
     const auto angle = std::find_if(result.angles.begin(), result.angles.end(), has);
     if (angle == result.angles.end()) {

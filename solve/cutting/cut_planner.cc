@@ -6,18 +6,19 @@
 #include "corank/solve/step/heuristics.h"
 
 namespace corank::solve {
-void CutPlanner::measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece) {
+void CutPlanner::measure_steepness(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece,
+                                   const std::vector<double>& sigmas) {
   const auto& system = problem_.compiled;
   const std::size_t n = system.variables(), r = step.dependent().size();
   steepness_.clear();
   slope_.resize(system.entries());
   for (std::size_t a = 0; a < r; ++a) {
-    const double sigma = problem_.sigma[step.dependent()[a]];
+    const double sigma = sigmas[step.dependent()[a]];
     if (!std::isfinite(sigma)) continue;
     for (int f : free) steepness_.push_back(std::fabs(step.derivative(static_cast<int>(a), f)) / sigma);
   }
   for (int k = 0; k < system.values(); ++k) {
-    const double sigma = problem_.sigma[n + k];
+    const double sigma = sigmas[n + k];
     if (!std::isfinite(sigma)) continue;
     const int row = system.value_row(k);
     system.slopes(row, piece, step.center().data(), slope_);
@@ -31,13 +32,30 @@ void CutPlanner::measure_steepness(const certify::NewtonStep& step, const std::v
   }
 }
 
-std::vector<int> CutPlanner::parts(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece) {
-  measure_steepness(step, free, piece);
+std::vector<double> CutPlanner::widened_sigma(const certify::NewtonStep& step, const Box& piece) {
+  std::vector<double> sigma = problem_.sigma;
+  const std::vector<int>& parameters = problem_.compiled.parameters();
+  measure_steepness(step, parameters, piece, problem_.sigma);
+  auto steepness = steepness_.begin();
+  const auto widen = [&](std::size_t variable) {
+    if (!std::isfinite(sigma[variable])) return;
+    double moved = 0;  // in σ
+    for (const int p : parameters) moved += *steepness++ * piece[p].width();
+    sigma[variable] *= std::max(1.0, kToleranceRoom * moved);
+  };
+  for (const int dependent : step.dependent()) widen(dependent);
+  for (int k = 0; k < problem_.compiled.values(); ++k) widen(problem_.compiled.variables() + k);
+  return sigma;
+}
+
+std::vector<int> CutPlanner::parts(const certify::NewtonStep& step, const std::vector<int>& free, const Box& piece,
+                                   const std::vector<double>& sigma) {
+  measure_steepness(step, free, piece, sigma);
   constexpr double kMostParts = 1 << 20;
   const std::size_t k = free.size();
   std::vector<double> parts(k, 1.0);
   const auto width = [&](std::size_t f) { return piece[free[f]].width(); };
-  const auto sigma_of_free = [&](std::size_t f) { return problem_.sigma[free[f]]; };
+  const auto sigma_of_free = [&](std::size_t f) { return sigma[free[f]]; };
   for (std::size_t f = 0; f < k; ++f) parts[f] = std::clamp(std::ceil(width(f) / sigma_of_free(f)), 1.0, kMostParts);
   // The width of a, in its σ, is Σ_f |∂a/∂f| w_f / parts_f.
   for (int round = 0; round < 1000; ++round) {

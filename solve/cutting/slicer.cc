@@ -32,7 +32,7 @@ NewtonStep Slicer::tighten(const Task& task, Slice& slice, const Preconditioner*
     slice.spread = last->outcome().spread;
   };
   sides.resize(problem_.compiled.variables());
-  const bool is_point = task.free.empty();
+  const bool is_point = task.cuttable.empty();
   if (!is_point && slice.spread > kStaleSpread) renew();  // the parts of such a slice are hardly better
   double width = HUGE_VAL;
   for (int k = 0; k < (is_point ? kPointTightenings : kTightenings); ++k) {
@@ -42,12 +42,12 @@ NewtonStep Slicer::tighten(const Task& task, Slice& slice, const Preconditioner*
       renew();
       step();
     }
-    const double tightened = is_point ? problem_.relative_width(sides) : problem_.excess(sides);
+    const double tightened = is_point ? problem_.relative_width(sides) : Problem::excess(sides, task.sigma);
     if (is_point ? tightened == width : tightened <= 1 || tightened > 0.9 * width) break;
     if (!is_point && tightened > kNearSigma) break;  // to be cut anyway
     width = tightened;
   }
-  if (is_point || problem_.excess(sides) <= kNearSigma) {
+  if (is_point || Problem::excess(sides, task.sigma) <= kNearSigma) {
     problem_.append_values_at_zeros(*last, sides);
   } else {
     problem_.append_values(sides);
@@ -67,7 +67,7 @@ bool Slicer::trim(const Task& task, NewtonStep& step, const Preconditioner* own,
   for (std::size_t j = 0; j < n; ++j) met_[j].intersect(task.x[j]);
   if (!step.contract_free(met_)) return false;
   bool narrower = false;
-  for (int f : task.free) {
+  for (int f : task.cuttable) {
     const std::size_t j = f;
     narrower = narrower || met_[j].width() < kTrimShare * sides[j].width();
     sides[j] = met_[j];
@@ -116,7 +116,7 @@ void Slicer::leave_room(const Task& task, Box& slice) const {
   for (std::size_t j = 0; j < slice.size(); ++j) {
     if (std::ranges::find(task.free, static_cast<int>(j)) != task.free.end()) continue;
     Interval& side = slice[j];
-    const double sigma = problem_.sigma[j];
+    const double sigma = task.sigma[j];
     const double size = j < problem_.compiled.scales().size() ? problem_.compiled.scales()[j] : 0;  // also about 0
     const double room =
         std::min(kRoom * side.width() + kLeastRoom * std::max(side.mag(), size), 0.49 * (sigma - side.width()));
@@ -132,14 +132,14 @@ void Slicer::leave_room(const Task& task, Box& slice) const {
 
 void Slicer::add(Task& task, Box slice, Location location) {
   const Sheet& sheet = task.sheet;
-  Verdict verdict = task.free.empty() ? Verdict::isolated : Verdict::regular;
+  Verdict verdict = task.cuttable.empty() ? Verdict::isolated : Verdict::regular;
   if (problem_.is_partial(sheet)) {
     verdict = holds_on_parts(sheet, task.free, slice, kPartialDepth) ? Verdict::partial : Verdict::undecided;
   } else if (location == Location::across && !holds_on_parts(sheet, task.free, slice, kBoundaryDepth)) {
     verdict = Verdict::boundary;
   }
   Found found{{std::move(slice), verdict, task.free}, {}, verdict == Verdict::undecided ? nullptr : task.region, {}};
-  if (task.free.empty() && verdict != Verdict::undecided) {
+  if (task.cuttable.empty() && verdict != Verdict::undecided) {
     Sheet narrow = sheet;
     narrow.image.assign(found.box.box.begin(), found.box.box.begin() + problem_.compiled.variables());
     found.sheet = std::make_unique<const Sheet>(std::move(narrow));
@@ -192,15 +192,25 @@ void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, FoundList& f
   }
   Box region = sheet.region;
   problem_.append_values(region);
+  const std::vector<int> free = other_variables(sheet.dependent, problem_.compiled.variables());
+  const Preconditioner p = preconditioners_.at_midpoint(sheet.image, &sheet.dependent, &sheet.equations);
   Task task{sheet,
             x,
             found,
-            other_variables(sheet.dependent, problem_.compiled.variables()),
+            free,
+            problem_.without_parameters(free),
             std::make_shared<const Box>(std::move(region)),
+            sigma_for(sheet, p),
             whole,
             rechartable};
-  const Preconditioner p = preconditioners_.at_midpoint(sheet.image, &sheet.dependent, &sheet.equations);
   descend(task, {sheet.image}, p);
+}
+
+std::vector<double> Slicer::sigma_for(const Sheet& sheet, const Preconditioner& p) {
+  if (problem_.compiled.parameters().empty()) return problem_.sigma;
+  Box sides = sheet.image;
+  const NewtonStep step = certify::tighten_sheet(problem_.compiled, p, sides, workspace_);
+  return planner_.widened_sigma(step, sides);
 }
 
 void Slicer::leave_slice(Task& task, Box sides) {
@@ -211,7 +221,7 @@ void Slicer::leave_slice(Task& task, Box sides) {
 }
 
 void Slicer::descend(Task& task, Slice slice, const Preconditioner& inherited) {
-  const std::vector<int>& free = task.free;
+  const std::vector<int>& free = task.cuttable;
   Box& sides = slice.sides;
   task.ended = task.ended || (!task.whole && task.turns++ % kPiecesBetweenChecks == 0 && problem_.ended());
   if (task.ended) return leave_slice(task, std::move(sides));
@@ -221,10 +231,10 @@ void Slicer::descend(Task& task, Slice slice, const Preconditioner& inherited) {
   // Every solution in x with these free values lies in the slice: one that does not meet x is another box's business.
   const std::optional<Location> location = place(task, *step, p, sides);
   if (!location) return leave_elsewhere();
-  double width = problem_.excess(sides);
+  double width = Problem::excess(sides, task.sigma);
   std::vector<int> parts;
   if (width > 1 && !free.empty() && !task.whole) {
-    parts = planner_.parts(*step, free, sides);
+    parts = planner_.parts(*step, free, sides, task.sigma);
     const double number = std::accumulate(parts.begin(), parts.end(), 1.0, std::multiplies<>());
     if (task.rechartable && slice.charts_tried < kMostChartsTried && number >= kPartsForAChart) {
       const auto dependent = better_chart(task, sides);
@@ -234,10 +244,10 @@ void Slicer::descend(Task& task, Slice slice, const Preconditioner& inherited) {
     }
     // Small enough but for overestimation: look closer.
     if (std::ranges::all_of(parts, [](int count) { return count == 1; })) {
-      certify::shrink_to_faces(problem_.compiled, task.sheet, *p, problem_.sigma, sides, workspace_);
+      certify::shrink_to_faces(problem_.compiled, task.sheet, *p, task.sigma, sides, workspace_);
       if (problem_.domain.locate(problem_.compiled, sides) == Location::outside) return leave_elsewhere();
       step.reset();
-      width = problem_.excess(sides);
+      width = Problem::excess(sides, task.sigma);
     }
   }
   // Rounding may keep the dependents of an ill-conditioned sheet wider than σ however narrow its free sides are: where cuts
@@ -256,24 +266,24 @@ void Slicer::descend(Task& task, Slice slice, const Preconditioner& inherited) {
 void Slicer::settle(const Task& task, NewtonStep& step, CutSlice& part) {
   const auto small = [&] {
     for (std::size_t j = 0; std::cmp_less(j, problem_.compiled.variables()); ++j)
-      if (part.sides[j].width() > problem_.sigma[j]) return false;
+      if (part.sides[j].width() > task.sigma[j]) return false;
     return true;
   };
   step.tighten_part(part.sides);
   if (!small()) step.tighten_part(part.sides);  // the dependents' own share is smaller now
   if (!small()) return;
   problem_.append_values_at_zeros(step, part.sides);
-  const double excess = problem_.excess(part.sides);
+  const double excess = Problem::excess(part.sides, task.sigma);
   if (excess > 1) return;
   const std::optional<Location> location = place(task, step, nullptr, part.sides);
   if (location == Location::across) return;  // a closer look may find it inside
-  if (location && task.free.size() == 1 && excess <= kPossibleFragment) return;
+  if (location && task.cuttable.size() == 1 && excess <= kPossibleFragment) return;
   part.fate = location ? CutSlice::Fate::found : CutSlice::Fate::elsewhere;
 }
 
 void Slicer::cut(Task& task, const Slice& slice, const Preconditioner& p, std::optional<NewtonStep> step,
                  const std::vector<std::vector<double>>& places) {
-  const std::vector<int>& free = task.free;
+  const std::vector<int>& free = task.cuttable;
   std::size_t count = 1;
   for (const std::vector<double>& along : places) count *= along.size() + 1;
   std::vector<CutSlice> all(count, CutSlice{.sides = slice.sides});

@@ -61,7 +61,9 @@ class Slicer {
     std::span<const Interval> x;
     FoundList& found;
     std::vector<int> free;
+    std::vector<int> cuttable;  // of these: parameters keep their whole domains
     std::shared_ptr<const Box> region;
+    std::vector<double> sigma;  // CutPlanner::widened_sigma
     bool whole = false;
     bool rechartable = true;  // not yet in a chart that was chosen for σ: slices of one never change it again
     unsigned turns = 0;
@@ -96,6 +98,7 @@ class Slicer {
   // Proves the slice's solutions in x to be a sheet with these dependents, and slices that; false: that is not proven.
   bool slice_in_chart(Task& task, Box sides, const std::vector<int>& dependent);
   void add(Task& task, Box slice, certify::Location location);
+  std::vector<double> sigma_for(const certify::Sheet& sheet, const certify::Preconditioner& p);
   // What a limit leaves of a slice.
   void leave_slice(Task& task, Box sides);
   // It is another box's business, or outside the domain.

@@ -266,7 +266,8 @@ void prove_exactly(const Prepared& prepared, Cover& cover, Control& control) {
   if (prepared.system.coefficient_tolerance > 0) return;
   if (control.ended()) return;  // the reduction may not be the search's
   const auto start = std::chrono::steady_clock::now();
-  if (prepared.system.size() <= kMostVariables) {
+  // With parameters a point would be one robot's.
+  if (prepared.system.size() <= kMostVariables && prepared.system.parameters() == 0) {
     Prover prover(prepared, cover, control);
     // Its searches are a part of this stage, and say nothing of themselves.
     const auto progress = std::exchange(control.search_progress, nullptr);
@@ -289,6 +290,7 @@ void prove_decimals(const Prepared& prepared, int digits, Cover& cover, Control&
   const InStage stage(control, Stage::decimals);
   const Ended ended = [&control] { return control.ended(); };
   cover.decimals.clear();
+  if (prepared.system.parameters() > 0) return;
   const certify::Reduction& reduction = prepared.reduction;
   for (const CoverBox& point : cover.points) {
     control.report(cover.decimals.size(), cover.points.size());

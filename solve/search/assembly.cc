@@ -202,7 +202,8 @@ class Merger {
 
   void run() {
     for (std::size_t i = 0; i < found_.size(); ++i)
-      if (found_[i]->box.verdict == Verdict::regular && found_[i]->box.free.size() == 1 &&
+      if (found_[i]->box.verdict == Verdict::regular &&
+          found_[i]->box.free.size() == 1 + problem_.compiled.parameters().size() &&
           problem_.excess(found_[i]->box.box) <= kFragment)
         cells_.push_back({0, i});
     if (cells_.size() < 2) return;
@@ -345,7 +346,7 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
     const Ended overdue = [&control] { return control.overdue(); };
     merge_isolated(found, overdue);
     cover.regions = number_regions(reduction, found);
-    cover.points = collect_points(found, problem.limits(kPointGap), overdue);
+    cover.points = collect_points(found, problem.limits(kPointGap), overdue, problem.compiled.parameters().size());
   } else {
     const InStage stage(control, Stage::merging);
     const std::size_t before = found.size();

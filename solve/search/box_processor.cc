@@ -85,7 +85,7 @@ void BoxProcessor::leave(const Waiting& box) {
 int BoxProcessor::widest_free(std::span<const Interval> x) {
   const std::vector<double>& scales = problem_.compiled.scales();
   int widest = -1;
-  for (int j : other_variables(dependent_, problem_.compiled.variables())) {
+  for (int j : problem_.without_parameters(other_variables(dependent_, problem_.compiled.variables()))) {
     if (!settled_.empty() && settled_[j]) continue;
     if (widest < 0 || x[j].width() * scales[widest] > x[widest].width() * scales[j]) widest = j;
   }
@@ -139,7 +139,7 @@ std::vector<double> BoxProcessor::midpoint(std::span<const Interval> x) const {
 std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const Interval> x, double share) const {
   const auto& system = problem_.compiled;
   auto near = local_solution(problem_, midpoint(x), kRankShare * share, problem_.relative_width(x) + kReach * share);
-  if (!near || near->rank >= std::min(system.equations(), system.variables())) return std::nullopt;
+  if (!near || near->rank >= std::min(system.equations(), system.unknowns())) return std::nullopt;
   for (int j = 0; j < system.variables(); ++j) {
     const double at = near->x[j], room = 2 * share * system.scales()[j];
     if (at < x[j].lo() - room || at > x[j].hi() + room) return std::nullopt;
@@ -154,8 +154,9 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   find_settled(x);
   if (std::ranges::all_of(settled_, [](bool settled) { return settled; })) settled_.clear();  // then all sides are alike
   const double width = relative_width(x);
+  if (width <= problem_.tolerance_width) return -1;  // what remains open belongs to tolerances: other robots differ
   const bool noisy = contractor_.noisy() && width < kNoisySize;
-  const bool surface = problem_.compiled.variables() == problem_.compiled.equations() + 2;
+  const bool surface = problem_.compiled.unknowns() == problem_.compiled.equations() + 2;
   const certify::NewtonStep* const step = width > problem_.heuristics.wide ? &*contractor_.step() : nullptr;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, limits(share, Sides::open), step);
   if (split < 0 && !noisy && !problem_.tolerant) {

@@ -172,7 +172,9 @@ class Estimator {
     const certify::NewtonStep step = certify::tighten_sheet(problem_.compiled, p, sides, workspace_);
     problem_.append_values(sides);
     double product = 1;
-    for (const int count : planner_.parts(step, other_variables(sheet.dependent, problem_.compiled.variables()), sides))
+    const std::vector<int> free = other_variables(sheet.dependent, problem_.compiled.variables());
+    for (const int count :
+         planner_.parts(step, problem_.without_parameters(free), sides, planner_.widened_sigma(step, sides)))
       product *= count;
     return product;
   }

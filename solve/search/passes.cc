@@ -36,10 +36,13 @@ Box hull_of(const Prepared& prepared, const Problem& problem, const std::vector<
 }
 
 // Of the sets found: self-motions are larger than expected.
-int largest_dimension(int dimension, const std::vector<Shard*>& shards) {
+int largest_dimension(const System& system, const std::vector<Shard*>& shards) {
+  int dimension = system.dimension();
   for (const Shard* shard : shards)
-    for (const Proven& proven : shard->sheets)
-      dimension = std::max(dimension, static_cast<int>(proven.sheet.region.size() - proven.sheet.dependent.size()));
+    for (const Proven& proven : shard->sheets) {
+      const auto free = proven.sheet.region.size() - proven.sheet.dependent.size();
+      dimension = std::max(dimension, static_cast<int>(free) - system.parameters());
+    }
   return dimension;
 }
 
@@ -84,8 +87,7 @@ Sigma sigma_of_search(const Prepared& prepared, const Problem& problem) {
 }
 
 Sigma sigma_of_set(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards) {
-  return chosen_sigma(prepared, hull_of(prepared, problem, shards),
-                      largest_dimension(prepared.reduction.system.dimension(), shards));
+  return chosen_sigma(prepared, hull_of(prepared, problem, shards), largest_dimension(prepared.reduction.system, shards));
 }
 
 }  // namespace corank::solve

@@ -48,6 +48,11 @@ inline constexpr int kGaussNewtonSteps = 8;  ///< to where the rank of redundant
 inline constexpr double kChartGain = 1.05;   ///< of a proof's volume: an exchange of free variables costs an elimination
 inline constexpr int kMostExchanges = 16;
 
+/// A parameter never becomes narrower, so beside this its domain counts as narrow.
+inline constexpr double kParameterSize = 1e150;
+/// Boxes are not bisected below this share of what parameters change (Problem::tolerance_width).
+inline constexpr double kToleranceShare = 1;
+
 // Bisection (branching.h)
 /// Off-centre, because mechanisms put solutions on planes of symmetry, and a face through a solution doubles its boxes.
 inline constexpr double kBisectionPoint = 0.47;
@@ -104,6 +109,8 @@ inline constexpr std::size_t kDirectionsEach = 4, kDimensionSamples = 3;  ///< f
 
 // Cutting of sheets (slicer.h, cut_planner.h); widths of σ *
 inline constexpr int kTightenings = 2, kPointTightenings = 20;  ///< an isolated solution: until its box stops shrinking
+/// A piece may be so much wider than what parameters move: its solutions for one robot are that much narrower.
+inline constexpr double kToleranceRoom = 2;
 inline constexpr double kNearSigma = 1.2;    ///< a wider piece is cut anyway, however well it is tightened
 inline constexpr double kStaleSpread = 0.1;  ///< |I − Y·S| beyond which a part gets its own Y
 inline constexpr double kRoom = 1.0 / 128, kLeastRoom = 4e-16;  ///< of a side, at each end; of its magnitude

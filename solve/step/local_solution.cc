@@ -13,7 +13,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-// The scaled Jacobian and residual.
+// The scaled Jacobian, without the parameters' columns, and residual.
 void linearize(const Problem& problem, const std::vector<double>& x, Eigen::MatrixXd& a, Vector& b) {
   const certify::CompiledSystem& system = problem.compiled;
   std::vector<double> sparse(system.entries());
@@ -28,6 +28,7 @@ void linearize(const Problem& problem, const std::vector<double>& x, Eigen::Matr
     }
     b(i) = system.evaluate_at(i, x.data()).mid() / size;
   }
+  for (const int j : system.parameters()) a.col(j).setZero();
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
     // What a direction without rank leaves of the residual is of second order or, at solutions of higher multiplicity, not
     // much less than the tolerance.
     const double left = b.size() > 0 ? b.lpNorm<Eigen::Infinity>() : 0;
-    const bool full = result.rank == std::min(a.rows(), a.cols());
+    const bool full = result.rank == std::min(system.equations(), system.unknowns());
     if (length < std::max(kStill, 0.1 * tolerance) &&
         left < (full ? std::max(1e-10, 4 * tolerance * tolerance) : 0.1 * tolerance))
       return result;
@@ -87,8 +88,10 @@ std::vector<double> kernel_basis(const Problem& problem, const LocalSolution& at
   int rank = 0;
   for (Eigen::Index k = 0; k < svd.values.size(); ++k) rank += svd.values(k) > tolerance;
   std::vector<double> basis;
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index k = rank; k < n; ++k) basis.push_back(svd.v(j, k));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const bool fixed = std::ranges::binary_search(problem.compiled.parameters(), static_cast<int>(j));
+    for (Eigen::Index k = rank; k < n; ++k) basis.push_back(fixed ? 0 : svd.v(j, k));
+  }
   return basis;
 }
 

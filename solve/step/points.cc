@@ -90,9 +90,10 @@ std::vector<std::vector<std::size_t>> clusters(const std::vector<const Box*>& bo
   return result;
 }
 
-std::vector<CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps, const Ended& ended) {
-  const auto along_a_set = [](const Found& f) {
-    return !f.box.free.empty() || f.box.reason == Reason::degenerate_set || f.box.verdict == Verdict::pending;
+std::vector<CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps, const Ended& ended,
+                                     std::size_t parameters) {
+  const auto along_a_set = [parameters](const Found& f) {
+    return f.box.free.size() > parameters || f.box.reason == Reason::degenerate_set || f.box.verdict == Verdict::pending;
   };
   const auto open = indices(found, [&](const Found& f) { return !is_proven(f) && !along_a_set(f); });
   std::vector<const Box*> open_sides;

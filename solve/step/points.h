@@ -21,8 +21,9 @@ std::vector<std::vector<std::size_t>> clusters(const std::vector<const Box*>& bo
 
 /// The distinct solutions: each isolated or boundary box, and the hull of each cluster of undecided boxes that are no
 /// farther apart than their gaps; pending ones, and what lies along a larger set, left out (the hull is no claim, so the
-/// gaps are free to choose). Where `ended` is true before the clusters are known, all undecided boxes are one.
+/// gaps are free to choose). Where `ended` is true before the clusters are known, all undecided boxes are
+/// one. `parameters`: how many the system has.
 std::vector<CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps,
-                                     const Ended& ended = {});
+                                     const Ended& ended = {}, std::size_t parameters = 0);
 
 }  // namespace corank::solve

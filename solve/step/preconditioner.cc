@@ -99,13 +99,14 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
   sparse_.resize(system_.entries());
   system_.approximate_jacobian(center_.data(), sparse_.data());
 
-  const std::vector<double>& scales = system_.scales();
+  weights_ = system_.scales();
+  for (const int j : system_.parameters()) weights_[j] = 0;
   tableau_.assign(m_ * stride_, 0.0);
   row_scale_.assign(m_, 0.0);
   for (int i = 0; i < m_; ++i) {
     for (int k = system_.row_begin(i); k < system_.row_begin(i + 1); ++k) {
       tableau_[i * stride_ + system_.column(k)] = sparse_[k];
-      row_scale_[i] = std::max(row_scale_[i], std::fabs(sparse_[k]) * scales[system_.column(k)]);
+      row_scale_[i] = std::max(row_scale_[i], std::fabs(sparse_[k]) * weights_[system_.column(k)]);
     }
     row_scale_[i] = row_scale_[i] > 0 ? 1 / row_scale_[i] : 0;
   }
@@ -114,9 +115,9 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
     for (int i : *rows) row_done_[i] = 0;
   allowed_.assign(stride_, 0.0);
   if (candidates) {
-    for (int j : *candidates) allowed_[j] = scales[j];
+    for (int j : *candidates) allowed_[j] = weights_[j];
   } else {
-    std::copy(scales.begin(), scales.end(), allowed_.begin());
+    std::ranges::copy(weights_, allowed_.begin());
   }
 
   best_size_.resize(m_);
@@ -161,10 +162,12 @@ const certify::Preconditioner& PreconditionerFactory::at_center(const std::vecto
 std::vector<int> PreconditionerFactory::chart_of_last(const std::vector<double>& sizes, double gain) const {
   const auto size = [&](int j) { return sizes[j]; };
   const std::vector<int>& dependent = result_.dependent;
-  const std::size_t k = n_ - dependent.size();
   Chart chart;  // in units of the sizes
-  chart.tangent.assign(n_ * k, 0.0);
   chart.free = other_variables(dependent, n_);
+  const std::vector<int>& parameters = system_.parameters();
+  std::erase_if(chart.free, [&](int j) { return std::ranges::binary_search(parameters, j); });
+  const std::size_t k = chart.free.size();
+  chart.tangent.assign(n_ * k, 0.0);
   for (std::size_t f = 0; f < k; ++f) {
     const int j = chart.free[f];
     chart.tangent[j * k + f] = 1;
@@ -174,6 +177,7 @@ std::vector<int> PreconditionerFactory::chart_of_last(const std::vector<double>&
     }
   }
   improve(chart, gain);
+  chart.free.insert(chart.free.end(), parameters.begin(), parameters.end());
   return other_variables(chart.free, n_);
 }
 

@@ -18,7 +18,7 @@ class PreconditionerFactory {
 
   /// Gauss–Jordan elimination with complete pivoting of the m×n Jacobian at the midpoint of x, its columns times the
   /// variables' scales: each pivot makes one variable dependent. Fewer than m rows where the Jacobian is numerically rank
-  /// deficient. If given, only the `candidates` may become dependent, and only the `rows` are used.
+  /// deficient. If given, only the `candidates` may become dependent, and only the `rows` are used. Parameters never do.
   const certify::Preconditioner& at_midpoint(std::span<const Interval> x, const std::vector<int>* candidates = nullptr,
                                              const std::vector<int>* rows = nullptr);
   /// The same at a point near the midpoint where all equations nearly hold (a few Gauss–Newton steps), so that the rank of
@@ -46,7 +46,7 @@ class PreconditionerFactory {
   bool over_ = false;
   int m_, n_;
   std::size_t stride_;  // of a row of the tableau, whose entries behind column n are 0
-  std::vector<double> center_, sparse_, tableau_, row_scale_, best_size_, allowed_;
+  std::vector<double> center_, sparse_, tableau_, weights_, row_scale_, best_size_, allowed_;
   std::vector<char> row_done_;
   certify::Preconditioner result_;
 };

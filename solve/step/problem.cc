@@ -26,6 +26,23 @@ Problem::Problem(const System& system, const certify::Reduction& reduction, std:
   TypicalSizes sizes = typical_sizes(compiled, reduction.system.domain());
   compiled.set_scales(std::move(sizes.variables));
   equation_sizes = std::move(sizes.equations);
+  if (!compiled.parameters().empty()) tolerance_width = kToleranceShare * change_by_parameters(reduction.system.domain());
+}
+
+// The largest change of an equation, in its typical size.
+double Problem::change_by_parameters(const Box& whole) const {
+  const UpwardRounding rounding;
+  std::vector<Interval> jacobian(compiled.entries());
+  compiled.jacobian(whole, jacobian);
+  double largest = 0;
+  for (int row = 0; row < compiled.equations(); ++row) {
+    double change = 0;
+    for (int k = compiled.row_begin(row); k < compiled.row_begin(row + 1); ++k)
+      if (std::ranges::binary_search(compiled.parameters(), compiled.column(k)))
+        change += 0.5 * jacobian[k].mag() * whole[compiled.column(k)].width();
+    largest = std::max(largest, change / equation_sizes[row]);
+  }
+  return largest;
 }
 
 void Problem::set_sigma(const Sigma& s) {
@@ -42,7 +59,7 @@ std::vector<double> Problem::limits(double share) const {
   return result;
 }
 
-double Problem::excess(const Box& sides) const {
+double Problem::excess(const Box& sides, const std::vector<double>& sigma) {
   double largest = 0;
   for (std::size_t j = 0; j < sides.size(); ++j) largest = std::max(largest, sides[j].width() / sigma[j]);
   return largest;
@@ -64,6 +81,11 @@ void Problem::append_values_at_zeros(const certify::NewtonStep& step, Box& sides
   append_values(sides);
   const std::size_t n = compiled.variables();
   for (int k = 0; k < compiled.values(); ++k) sides[n + k].intersect(step.value_at_zeros(compiled.value_row(k), sides));
+}
+
+std::vector<int> Problem::without_parameters(std::vector<int> variables) const {
+  std::erase_if(variables, [&](int j) { return std::ranges::binary_search(compiled.parameters(), j); });
+  return variables;
 }
 
 std::vector<int> other_variables(const std::vector<int>& given, int variables) {

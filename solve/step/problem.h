@@ -30,7 +30,9 @@ struct Problem {
   void set_sigma(const Sigma& sigma);
   /// The largest ratio of a side's width to the σ of its variable: above 1 a piece is to be cut. For the sides of the kept
   /// variables, with or without those of the eliminated ones behind them.
-  double excess(const Box& sides) const;
+  double excess(const Box& sides) const { return excess(sides, sigma); }
+  /// The same for another σ of each variable.
+  static double excess(const Box& sides, const std::vector<double>& sigma);
   /// The largest ratio of a kept variable's side to its typical size.
   double relative_width(std::span<const Interval> x) const;
 
@@ -42,6 +44,8 @@ struct Problem {
   bool is_partial(const certify::Sheet& sheet) const {
     return subset || (sheet.motion < 0 && static_cast<int>(sheet.equations.size()) < compiled.equations());
   }
+  /// Of these variables those that may be divided.
+  std::vector<int> without_parameters(std::vector<int> variables) const;
   /// Appends the eliminated variables' sides over x to the n sides of x (what follows those is renewed).
   void append_values(Box& sides) const;
   /// The same of the zeros of the step's rows in the sides, a part of its box.
@@ -51,8 +55,11 @@ struct Problem {
   certify::RedundantEquations
       redundant;  ///< applies(): a proof may speak of an independent subset of the equations (`partial`)
   certify::DomainTest domain;
-  bool subset;            ///< certify::Reduction::subset
-  bool tolerant;          ///< coefficients carry a tolerance, or equations may hold within one only
+  bool subset;    ///< certify::Reduction::subset
+  bool tolerant;  ///< coefficients carry a tolerance, or equations may hold within one only
+  /// Of the typical sizes: how much parameters within their tolerances change the equations. Bisecting narrower boxes
+  /// decides nothing; 0 where there are no parameters.
+  double tolerance_width = 0;
   double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
   Heuristics heuristics;
@@ -63,6 +70,8 @@ struct Problem {
   std::function<bool()> ended;
 
  private:
+  double change_by_parameters(const Box& whole) const;
+
   std::vector<SigmaClass> classes_;  // in the order of `sigma`
 };
 

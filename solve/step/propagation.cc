@@ -70,12 +70,14 @@ TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<In
       largest = std::max(largest, jacobian[k].mag() * sizes.variables[system.column(k)]);
     sizes.equations.push_back(usable(largest));
   }
+  for (const int j : system.parameters()) sizes.variables[j] = kParameterSize;
   return sizes;
 }
 
 bool Contractor::run(std::span<Interval> x, Statistics& statistics) {
   worth_proving_ = near_sheet_ = regular_ = noisy_ = false;
   if (!propagator_.run(system_, x, recorder_)) return false;
+  system_.free_parameters(x);
   const int n = system_.variables();
   widths_.resize(n);
   for (int repeat = 0; repeat < heuristics_.repeats; ++repeat) {
@@ -86,6 +88,7 @@ bool Contractor::run(std::span<Interval> x, Statistics& statistics) {
     const certify::NewtonOutcome& newton = step.outcome();
     ++statistics.newton_steps;
     if (newton.empty || !step.contract_free(x)) return false;
+    system_.free_parameters(x);
     regular_ = newton.regular && p.rank() == system_.equations();
     noisy_ = is_noisy(x);
     worth_proving_ = regular_ && newton.spread < heuristics_.proof_spread;
@@ -94,6 +97,7 @@ bool Contractor::run(std::span<Interval> x, Statistics& statistics) {
     for (int j = 0; j < n && !gained; ++j) gained = x[j].width() < (1 - heuristics_.gain) * widths_[j];
     if (!gained) return true;
     if (!propagator_.run(system_, x, recorder_)) return false;
+    system_.free_parameters(x);
   }
   return true;
 }

@@ -32,7 +32,8 @@ class Propagator {
 /// Sizes that are typical in the search domain as propagation leaves it, so that neither the unit of length nor a generous
 /// range steers the search.
 struct TypicalSizes {
-  std::vector<double> variables;  ///< half their widths; the magnitude of one that has one value; 1 for 0
+  std::vector<double> variables;  ///< half their widths; the magnitude of one that has one value; 1 for 0; of a parameter
+                                  ///< kParameterSize
   std::vector<double> equations;  ///< the largest |∂f_i/∂x_j| · size of x_j over the domain; 1 where that is 0 or unbounded
 };
 TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<Interval> domain);
@@ -49,7 +50,7 @@ class Contractor {
         workspace_(workspace),
         recorder_(recorder) {}
 
-  /// Shrinks x in place; false: x holds no solution. Every solution in x is in what is left.
+  /// Shrinks x in place, but for parameters; false: x holds no solution. Every solution in x is in what is left.
   bool run(std::span<Interval> x, Statistics& statistics);
 
   // Of the last run:

@@ -38,7 +38,8 @@ SigmaClass sigma_class(const Variable& variable) {
     case VariableKind::sine:
     case VariableKind::cosine: return SigmaClass::angle;
     case VariableKind::kernel:
-    case VariableKind::auxiliary: break;
+    case VariableKind::auxiliary:
+    case VariableKind::parameter: break;
   }
   return SigmaClass::none;
 }

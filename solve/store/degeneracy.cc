@@ -36,7 +36,7 @@ bool may_be_solution(const Problem& problem, const std::vector<double>& x) {
 bool goes_on(const Problem& problem, const LocalSolution& start, double step, std::mt19937& random) {
   const auto& system = problem.compiled;
   const auto exact = local_solution(problem, start.x, kSolutionTolerance);
-  const int full = std::min(system.equations(), system.variables());
+  const int full = std::min(system.equations(), system.unknowns());
   if (!exact || exact->rank >= full || breaks_inequality(problem, exact->x, step)) return false;
   const std::vector<double> basis = kernel_basis(problem, *exact, 100 * kSolutionTolerance);
   const std::size_t n = system.variables(), k = basis.size() / n;
@@ -71,7 +71,7 @@ bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes,
                     double share) {
   // Surfaces meet each other and themselves along curves, curves do so at points. Around a point small boxes reach about
   // √share.
-  const bool surface = problem.compiled.variables() > problem.compiled.equations() + 1;
+  const bool surface = problem.compiled.unknowns() > problem.compiled.equations() + 1;
   if (surface && share < kSetShare && extent(problem, boxes, cluster) > kWideExtent) return true;
   std::mt19937 random(1);
   const std::size_t probes = std::min(kProbes, cluster.size());
@@ -147,7 +147,7 @@ void SelfMotions::prove_cluster(const Problem& problem, const System& system, st
       continue;
     ++attempts;
     MotionCandidate candidate = find_self_motion(problem, system, box.near);
-    const int expected = std::max(0, problem.compiled.variables() - problem.compiled.equations());
+    const int expected = std::max(0, problem.compiled.unknowns() - problem.compiled.equations());
     if (candidate.dimension > expected) observed_ = std::max(observed_, candidate.dimension);
     if (!candidate.motion) continue;
     const auto same = std::ranges::find_if(
@@ -174,7 +174,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
     if (extent(problem, boxes, cluster) > kIsolatedHull * share) {  // more than one point
       reason = Reason::none;
       const bool along = is_along_a_set(problem, boxes, cluster, share);
-      if (along) prove_cluster(problem, system, boxes, cluster, share);
+      if (along && problem.compiled.parameters().empty()) prove_cluster(problem, system, boxes, cluster, share);
       const auto open =
           static_cast<std::size_t>(std::ranges::count_if(cluster, [&](std::size_t i) { return !boxes[i].proof.proven; }));
       // Boxes that touch over so many of their sizes: along a set, as far as it pays to look. What self-motions leave around

@@ -19,6 +19,7 @@ Tally::Tally(const Prepared& prepared, Control& control, std::uint64_t most, Jou
       control_(control),
       most_(most),
       journal_(journal),
+      parameters_(prepared.reduction.system.parameters()),
       memory_(prepared.reduction, control.limits().later_bytes),
       soon_found_(memory_.of_found(2 * kPiecesBetweenChecks * static_cast<std::size_t>(std::max(1, options_.threads)))) {}
 
@@ -105,7 +106,8 @@ void Tally::count(const Shard& shard, Counted& counted) {
     ++verdicts_[static_cast<std::size_t>(f.box.verdict)];
     if (++found_ == options_.max_found) end(Limit::found);
     const bool proven = f.box.verdict != Verdict::undecided && f.box.verdict != Verdict::pending;
-    if (cutting_ && proven && !f.box.free.empty() && ++cut_ == options_.max_solutions) end(Limit::solutions);
+    if (cutting_ && proven && std::cmp_greater(f.box.free.size(), parameters_) && ++cut_ == options_.max_solutions)
+      end(Limit::solutions);
   }
 }
 
@@ -118,7 +120,7 @@ void Tally::count_sheets(const Shard& shard, Counted& counted) {
     if (++sheets_ == options_.max_found) end(Limit::found);
     if (options_.max_solutions == 0) continue;
     const std::lock_guard lock(solutions_mutex_);
-    if (sheet.dependent.size() == sheet.region.size()) {
+    if (std::ssize(sheet.dependent) + parameters_ == std::ssize(sheet.region)) {
       isolated_.add(sheet);
     } else {
       ++pieces_;

@@ -111,6 +111,7 @@ class Tally {
   Control& control_;
   const std::uint64_t most_;
   Journal* journal_;
+  const int parameters_;  // of the system
   std::atomic<bool> pausing_{false};
   MemoryEstimate memory_;
   const std::int64_t soon_found_;      // bytes of the pieces that threads cut before they look again, and of those in hand

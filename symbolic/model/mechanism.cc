@@ -45,10 +45,11 @@ void Mechanism::declare(const std::string& name, Declared kind, const SourceLoca
   names_.emplace(name, Declaration{kind, index, where});
 }
 
-Expression Mechanism::constant(const std::string& name, const Expression& value, const SourceLocation& where) {
+Expression Mechanism::constant(const std::string& name, const Expression& value, const SourceLocation& where,
+                               const std::optional<Tolerance>& tolerance) {
   if (name == "deg" && same_tree(value, degrees("1"))) return value;  // it is that in every model
   declare(name, Declared::constant, where);
-  constants_.push_back({name, value, where});
+  constants_.push_back({name, value, where, tolerance});
   return Expression::symbol(name);
 }
 
@@ -176,11 +177,20 @@ void Mechanism::limit(const std::string& coordinate, const Expression& lower, co
   limits_.push_back({coordinate, lower, upper, where});
 }
 
-void Mechanism::set_constant(const std::string& name, const Expression& value) {
+void Mechanism::set_constant(const std::string& name, const Expression& value, const std::optional<Tolerance>& tolerance) {
   if (!has_constant(name))
     throw ModelError({name_, 0, 0}, "there is no constant " + in_quotes(name),
                      constants_.empty() ? "a model with constants" : "one of " + joined(names_of(constants_)));
-  constants_[names_.at(name).index].value = value;
+  Constant& constant = constants_[names_.at(name).index];
+  constant.value = value;
+  constant.tolerance = tolerance;
+}
+
+std::vector<std::string> Mechanism::toleranced() const {
+  std::vector<std::string> names;
+  for (const Constant& c : constants_)
+    if (c.tolerance) names.push_back(c.name);
+  return names;
 }
 
 void Mechanism::set_range(const std::string& coordinate, const Expression& lower, const Expression& upper) {

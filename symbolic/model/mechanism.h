@@ -11,6 +11,7 @@
 // expressions use known names only is checked by validate(), because constants may be overridden before.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -23,10 +24,18 @@ namespace corank::symbolic {
 
 class ModelValidator;
 
+/// Of a constant that is known within a tolerance: lower ≤ value ≤ upper, each in numbers and constants declared before.
+struct Tolerance {
+  Expression lower, upper;
+
+  std::string text() const { return "[" + lower.text() + ", " + upper.text() + "]"; }
+};
+
 struct Constant {
   std::string name;
-  Expression value;  ///< in numbers, pi and constants declared before
+  Expression value;  ///< in numbers, pi and constants declared before; the nominal one where there is a tolerance
   SourceLocation where;
+  std::optional<Tolerance> tolerance{};  ///< one unknown value within it, the same wherever the name stands
 };
 
 enum class CoordinateKind { length, angle };
@@ -100,7 +109,8 @@ class Mechanism {
 
   /// Each returns the name as an expression, to be used in constraints. Throws ModelError where the name is taken, reserved
   /// or no identifier.
-  Expression constant(const std::string& name, const Expression& value, const SourceLocation& where = {});
+  Expression constant(const std::string& name, const Expression& value, const SourceLocation& where = {},
+                      const std::optional<Tolerance>& tolerance = std::nullopt);
   Expression coordinate(const Coordinate& c);
   Expression length(const std::string& name, const Expression& lower, const Expression& upper,
                     const SourceLocation& where = {}) {
@@ -140,8 +150,10 @@ class Mechanism {
   void velocity(const Relation& relation, const SourceLocation& where = {});
   void drawing(Drawing drawing) { drawing_ = std::move(drawing); }
 
-  /// Replaces the value of a declared constant (`-D L2=1`). Throws ModelError where there is no such constant.
-  void set_constant(const std::string& name, const Expression& value);
+  /// Replaces the value of a declared constant (`-D L2=1`) and its tolerance. Throws ModelError where there is no such
+  /// constant.
+  void set_constant(const std::string& name, const Expression& value,
+                    const std::optional<Tolerance>& tolerance = std::nullopt);
 
   /// Gives a declared coordinate that is no component of a composite another range. Throws ModelError where there is none.
   void set_range(const std::string& coordinate, const Expression& lower, const Expression& upper);
@@ -154,6 +166,8 @@ class Mechanism {
   void set_source_text(std::string text) { source_text_ = std::move(text); }
 
   const std::vector<Constant>& constants() const { return constants_; }
+  /// Names of those with a tolerance.
+  std::vector<std::string> toleranced() const;
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   const std::vector<Composite>& composites() const { return composites_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }

@@ -82,6 +82,26 @@ std::optional<SourceLocation> ExpressionBuilder::open_parenthesis() const {
   return frames_.back().parenthesis;
 }
 
+void ModelBuilder::finish_tolerance(ToleranceForm form, const std::string& percent) {
+  const Expression first = values.at(0);
+  if (form == ToleranceForm::range) {
+    tolerance = {first, values.at(1)};
+    values = {(first + values.at(1)) / 2};
+    return;
+  }
+  // Of a number that is written with a minus the share is negative.
+  const Expression size = first.kind() == Kind::negation ? first.operands()[0] : first;
+  const Expression change = form == ToleranceForm::percent ? size * Expression::number(percent) / 100 : values.at(1);
+  tolerance = {first - change, first + change};
+  values = {first};
+}
+
+void ModelBuilder::finish_constant() {
+  mechanism.constant(declared, values.at(0), declared_where, tolerance);
+  values.clear();
+  tolerance.reset();
+}
+
 void ModelBuilder::finish_variable() {
   if (values.empty() && kind == CoordinateKind::angle) values = {-pi(), pi()};
   const bool has_range = !values.empty();

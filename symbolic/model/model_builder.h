@@ -73,6 +73,7 @@ struct ModelBuilder {
   std::string section_title;     ///< of a section with an unknown name
   SourceLocation section_where;
 
+  std::optional<Tolerance> tolerance;  ///< of the constant being defined
   CoordinateKind kind = CoordinateKind::length;
   bool auxiliary = false;  ///< the section's variables
   bool of_rates = false;   ///< the section's equations, as is `implied`
@@ -88,6 +89,10 @@ struct ModelBuilder {
   std::vector<Limit> limits;                ///< likewise
   Drawing drawing;
 
+  /// The tolerance of the constant whose value is read: ± the last value, ± that share of it, or from the one to the other.
+  enum class ToleranceForm { absolute, percent, range };
+  void finish_tolerance(ToleranceForm form, const std::string& percent = {});
+  void finish_constant();
   void finish_variable();  ///< with its range where `values` has one
   void finish_composite(Composite::Kind composite);
   void finish_equation();

@@ -20,10 +20,13 @@ struct Action : ExpressionAction<Rule> {};
 #define CORANK_ACTION0(rule, ...) CORANK_ACTION0_OF(Action, ModelBuilder, rule, __VA_ARGS__)
 
 CORANK_ACTION(constant_name, { declare(in, b); })
-CORANK_ACTION0(constant_end, {
-  b.mechanism.constant(b.declared, b.values.at(0), b.declared_where);
-  b.values.clear();
+CORANK_ACTION(percent_token, {
+  const std::string_view number = in.string_view().substr(0, in.string_view().find_first_of(" \t\r\f\v%"));
+  b.finish_tolerance(ModelBuilder::ToleranceForm::percent, normal_decimal(number, place(in, b)));
 })
+CORANK_ACTION0(tolerance_end, { b.finish_tolerance(ModelBuilder::ToleranceForm::absolute); })
+CORANK_ACTION0(value_range_end, { b.finish_tolerance(ModelBuilder::ToleranceForm::range); })
+CORANK_ACTION0(constant_end, { b.finish_constant(); })
 CORANK_ACTION(variables_header, {
   const std::string_view title = in.string_view();
   b.of_limits = false;
@@ -148,6 +151,12 @@ Expression parse_expression(std::string_view text, const std::string& file) {
   ModelBuilder builder(file);
   parse_text<grammar::lone_expression>(text, builder);
   return builder.values.at(0);
+}
+
+Constant parse_constant(const std::string& name, std::string_view text, const std::string& file) {
+  ModelBuilder builder(file);
+  parse_text<grammar::lone_constant_value>(text, builder);
+  return {name, builder.values.at(0), {}, builder.tolerance};
 }
 
 Expression parse_anonymous_expression(std::string_view text) {

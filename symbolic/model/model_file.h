@@ -30,6 +30,9 @@ std::string read_text(const std::filesystem::path& path);
 /// Parses one expression. Throws ModelError.
 Expression parse_expression(std::string_view text, const std::string& file = "expression");
 
+/// What stands behind := in a model, an expression that may have a tolerance. Throws ModelError.
+Constant parse_constant(const std::string& name, std::string_view text, const std::string& file = "constant");
+
 /// The same for a text in C++ code: messages show the text itself, and the tree has no places.
 Expression parse_anonymous_expression(std::string_view text);
 

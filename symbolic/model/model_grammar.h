@@ -87,7 +87,12 @@ struct term : seq<star<term_sign, Gap>, factors<Gap>, term_end> {};
 struct plus_sign : one<'+'> {};
 struct minus_sign : one<'-'> {};
 template <typename Gap>
-struct terms : seq<term<Gap>, star<Gap, sor<plus_sign, minus_sign>, Gap, term<Gap>>> {};
+struct sum_sign : sor<plus_sign, minus_sign> {};
+/// In the line of a constant +- begins a tolerance.
+template <>
+struct sum_sign<line_gap> : sor<seq<not_at<string<'+', '-'>>, plus_sign>, minus_sign> {};
+template <typename Gap>
+struct terms : seq<term<Gap>, star<Gap, sum_sign<Gap>, Gap, term<Gap>>> {};
 struct expression_begin : success {};
 struct expression_end : success {};
 template <typename Gap>
@@ -115,12 +120,30 @@ struct known_section : failure {};
 struct unknown_section : if_must<one<'['>, section_title, section_close, known_section> {};
 struct section_or_end : sor<eof, one<'['>> {};
 
-// [CONSTANTS]  name := expression
+struct range_comma : one<','> {};
+struct range_close : one<']'> {};
+
+// [CONSTANTS]  name := expression, name := expression ± expression, name := expression ± number %, or
+//              name := in [lower, upper]
 struct constant_name : identifier {};
 struct assign : string<':', '='> {};
 struct constant_end : success {};
-struct definition : seq<must<constant_name>, line_gap, must<assign>, line_gap, expression<line_gap>, constant_end,
-                        opt<line_gap, one<';'>>> {};
+struct tolerance_mark : sor<string<'+', '-'>, string<'\xC2', '\xB1'>> {};
+/// A % with a blank before it begins a comment, unless nothing stands behind it.
+struct percent_end : seq<star<blank_character>, sor<eolf, one<';'>>> {};
+struct percent_token : seq<decimal, sor<one<'%'>, seq<plus<blank_character>, one<'%'>, at<percent_end>>>> {};
+struct tolerance_end : success {};
+struct tolerance : seq<tolerance_mark, star<blank_character>, sor<percent_token, seq<expression<line_gap>, tolerance_end>>> {
+};
+struct in_word : seq<string<'i', 'n'>, not_at<name_tail>, at<gap, one<'['>>> {};
+struct value_range_end : success {};
+struct value_range : seq<in_word, gap, one<'['>, gap, expression<gap>, gap, must<range_comma>, gap, expression<gap>, gap,
+                         must<range_close>, value_range_end> {};
+struct constant_value : sor<value_range, seq<expression<line_gap>, opt<line_gap, tolerance>>> {};
+struct definition
+    : seq<must<constant_name>, line_gap, must<assign>, line_gap, constant_value, constant_end, opt<line_gap, one<';'>>> {};
+/// What `-D NAME=…` gives.
+struct lone_constant_value : seq<line_gap, constant_value, line_gap, must<lone_expression_end>> {};
 struct constants_section : seq<constants_header, star<gap, not_at<section_or_end>, definition>> {};
 
 template <typename Letters>
@@ -134,8 +157,6 @@ struct composite_mark : one<'@'> {};
 struct declarator : sor<length_mark, angle_mark> {};
 struct no_range : at<sor<eolf, one<';'>>> {};
 struct range_open : one<'['> {};
-struct range_comma : one<','> {};
-struct range_close : one<']'> {};
 struct variable_end : success {};
 struct range : seq<must<range_open>, gap, expression<gap>, gap, must<range_comma>, gap, expression<gap>, gap,
                    must<range_close>, variable_end> {};

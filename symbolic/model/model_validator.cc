@@ -32,8 +32,12 @@ ModelValidator::ModelValidator(const Mechanism& mechanism) {
 }
 
 void ModelValidator::add_constant(const Constant& constant) {
-  constants_.emplace(constant.name,
-                     check(constant.value, {"the constant " + in_quotes(constant.name), true, constant.where}));
+  const Context context{"the constant " + in_quotes(constant.name), true, constant.where};
+  if (constant.tolerance) {
+    check(constant.tolerance->lower, context);
+    check(constant.tolerance->upper, context);
+  }
+  constants_.emplace(constant.name, check(constant.value, context));
 }
 
 void ModelValidator::check_value(const Expression& value, const std::string& owner, const SourceLocation& where) const {

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "corank/core/check.h"
+#include "corank/core/rounding.h"
+#include "corank/symbolic/algebra/expression_range.h"
 #include "corank/symbolic/algebra/ginac_lock.h"
 #include "corank/symbolic/algebra/polynomial_expander.h"
 #include "corank/symbolic/model/expression_words.h"
@@ -91,7 +94,14 @@ class Algebrizer {
 
  private:
   void add_names();
+  void add_constant(const Constant& constant);
   void add_coordinates();
+  void add_parameter(const Constant& constant);
+  /// Does the expression depend on a constant that is known within a tolerance only? Its name; empty: it does not.
+  std::string toleranced_in(const Expression& e) const;
+  void require_exact(const Expression& e, const std::string& what, const SourceLocation& where) const;
+  /// The coordinate, with ends that hold for every value of the parameters.
+  Coordinate with_fixed_ends(const Coordinate& coordinate);
   void add_length(const Coordinate& coordinate);
   void add_angle(const Coordinate& coordinate);
   void add_dependent_angle(const DependentAngle& dependent);
@@ -110,6 +120,8 @@ class Algebrizer {
   std::set<std::string> names_;
   std::vector<Polynomial> angle_equations_, chords_;
   std::vector<std::string> special_angles_;  // of one value, or dependent
+  std::vector<const Constant*> parameters_;
+  std::map<std::string, Expression> following_;  // constants that depend on a parameter, in parameters
 };
 
 std::string equation_text(const TrigonometricSystem::Equation& equation) {
@@ -130,6 +142,7 @@ void require_bounded(const Polynomial& polynomial, const TrigonometricSystem::Eq
 
 ConstantRange Algebrizer::range_of(const Coordinate& coordinate) {
   const std::string what = "the range of " + in_quotes(coordinate.name);
+  for (const Expression& end : {coordinate.lower, coordinate.upper}) require_exact(end, what, coordinate.where);
   ConstantRange range{expander_.constant(coordinate.lower, what, coordinate.where),
                       expander_.constant(coordinate.upper, what, coordinate.where)};
   const std::string text = coordinate.range_text();
@@ -158,6 +171,72 @@ void Algebrizer::add_length(const Coordinate& coordinate) {
   const int variable = add_variable(coordinate.name, VariableKind::length, range_of(coordinate));
   expander_.add_unknown(coordinate.name, variable);
   out_.variables[variable].direction = coordinate.direction;
+}
+
+std::string Algebrizer::toleranced_in(const Expression& e) const {
+  for (const Constant* parameter : parameters_)
+    if (e.mentions(parameter->name)) return parameter->name;
+  for (const auto& [name, value] : following_)
+    if (e.mentions(name)) return name;
+  return {};
+}
+
+void Algebrizer::require_exact(const Expression& e, const std::string& what, const SourceLocation& where) const {
+  if (const std::string name = toleranced_in(e); !name.empty())
+    throw ModelError(where, what + " depends on " + in_quotes(name) + ", which is known within a tolerance only",
+                     "numbers and constants without a tolerance");
+}
+
+Coordinate Algebrizer::with_fixed_ends(const Coordinate& c) {
+  const std::string what = "the range of " + in_quotes(c.name);
+  const bool varies = !toleranced_in(c.lower).empty() || !toleranced_in(c.upper).empty();
+  if (!varies || c.kind == CoordinateKind::angle) return c;
+  const UpwardRounding rounding;
+  const auto known = [&](const Expression& e) -> std::optional<Interval> {
+    if (toleranced_in(e).empty()) return expander_.constant(e, what, c.where).exact().enclose();
+    const auto of_name = std::ranges::find_if(parameters_, [&](const Constant* p) { return p->name == e.name(); });
+    if (e.kind() != Expression::Kind::symbol || of_name == parameters_.end()) return std::nullopt;
+    const Tolerance& tolerance = *(*of_name)->tolerance;
+    return Interval::hull(expander_.constant(tolerance.lower, what, c.where).exact().enclose(),
+                          expander_.constant(tolerance.upper, what, c.where).exact().enclose());
+  };
+  const auto lower = symbolic::range_of(c.lower.substituted(following_), known),
+             upper = symbolic::range_of(c.upper.substituted(following_), known);
+  if (!lower || !upper || !lower->is_bounded() || !upper->is_bounded())
+    throw ModelError(c.where, what + ", " + c.range_text() + ", is not bounded within the tolerances", "bounds in numbers");
+  return with_range(c, Interval::hull(*lower, *upper));
+}
+
+void Algebrizer::add_constant(const Constant& c) {
+  const std::string what = "the tolerance of " + in_quotes(c.name);
+  if (c.tolerance) {
+    require_exact(c.tolerance->lower, what, c.where);
+    require_exact(c.tolerance->upper, what, c.where);
+    const ConstantValue lower = expander_.constant(c.tolerance->lower, what, c.where),
+                        upper = expander_.constant(c.tolerance->upper, what, c.where);
+    const std::optional<int> sign = (upper - lower).sign();
+    if (sign == -1)
+      throw ModelError(c.where, what + ", " + c.tolerance->text() + ", is empty",
+                       "a positive tolerance, or the lower end first");
+    if (sign != 0) {
+      parameters_.push_back(&c);
+      return;
+    }
+  }
+  if (!toleranced_in(c.value).empty()) {
+    following_.emplace(c.name, c.value.substituted(following_));
+  } else {
+    expander_.define(c);
+  }
+}
+
+// A variable of its own, behind the coordinates. The ends of a tolerance are no ends of the mechanism.
+void Algebrizer::add_parameter(const Constant& c) {
+  const Coordinate range{c.name, CoordinateKind::length, c.tolerance->lower, c.tolerance->upper, c.where};
+  add_length(range);
+  Variable& v = out_.variables.back();
+  v.kind = VariableKind::parameter;
+  v.auxiliary = v.lower_implied = v.upper_implied = true;
 }
 
 void Algebrizer::add_angle(const Coordinate& coordinate) {
@@ -217,8 +296,9 @@ void Algebrizer::add_kernel_unknowns() {
 
 ExpandedPolynomial Algebrizer::difference(const TrigonometricSystem::Equation& equation) {
   const std::string what = equation_text(equation);
-  const ExpandedPolynomial lhs = expander_.polynomial(equation.relation.lhs, what, equation.where);
-  const ExpandedPolynomial rhs = expander_.polynomial(equation.relation.rhs, what, equation.where);
+  const Relation relation = following_.empty() ? equation.relation : equation.relation.substituted(following_);
+  const ExpandedPolynomial lhs = expander_.polynomial(relation.lhs, what, equation.where);
+  const ExpandedPolynomial rhs = expander_.polynomial(relation.rhs, what, equation.where);
   try {
     return lhs - rhs;
   } catch (const std::exception& error) {
@@ -271,13 +351,14 @@ void Algebrizer::add_names() {
 }
 
 void Algebrizer::add_coordinates() {
-  for (const Constant& constant : in_.constants) expander_.define(constant);
+  for (const Constant& constant : in_.constants) add_constant(constant);
   for (const Coordinate& coordinate : in_.coordinates) {
     const auto first = out_.variables.size();
-    coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(coordinate);
+    coordinate.kind == CoordinateKind::angle ? add_angle(coordinate) : add_length(with_fixed_ends(coordinate));
     for (auto v = first; v < out_.variables.size(); ++v) out_.variables[v].auxiliary = coordinate.auxiliary;
   }
   if (in_.dependent_angle) add_dependent_angle(*in_.dependent_angle);
+  for (const Constant* parameter : parameters_) add_parameter(*parameter);
 }
 
 System Algebrizer::run() {
@@ -318,7 +399,8 @@ std::vector<Polynomial> Algebrizer::polynomials(const std::vector<Expression>& e
   std::vector<Polynomial> result;
   for (const Expression& expression : expressions) {
     const std::string what = in_quotes(expression.text());
-    result.push_back(expander_.polynomial(expression, what, {in_.name, 0, 0}).compile(what));
+    const Expression own = expression.substituted(following_);
+    result.push_back(expander_.polynomial(own, what, {in_.name, 0, 0}).compile(what));
     for (const Monomial& monomial : result.back().monomials)
       for (const Factor& factor : monomial.factors)
         if (factor.variable >= variables)

@@ -47,7 +47,10 @@ bool are_alike(const TrigonometricSystem& a, const TrigonometricSystem& b) {
     return std::equal(x.begin(), x.end(), y.begin(), y.end(), alike);
   };
   const auto constants = [](const Constant& x, const Constant& y) {
-    return x.name == y.name && same_tree(x.value, y.value);
+    if (x.tolerance && y.tolerance &&
+        (!same_tree(x.tolerance->lower, y.tolerance->lower) || !same_tree(x.tolerance->upper, y.tolerance->upper)))
+      return false;
+    return x.name == y.name && same_tree(x.value, y.value) && x.tolerance.has_value() == y.tolerance.has_value();
   };
   const auto coordinates = [](const Coordinate& x, const Coordinate& y) {
     return x.name == y.name && x.kind == y.kind && same_tree(x.lower, y.lower) && same_tree(x.upper, y.upper) &&

@@ -29,8 +29,14 @@ PolynomialExpander values_for_limits(const Mechanism& mechanism) {
     if (needed[k]) asked.push_back(constants[k].value);
   }
   PolynomialExpander values;
-  for (std::size_t k = 0; k < constants.size(); ++k)
-    if (needed[k]) values.define(constants[k]);
+  for (std::size_t k = 0; k < constants.size(); ++k) {
+    if (!needed[k]) continue;
+    if (constants[k].tolerance)
+      throw ModelError(mechanism.limits()[0].where,
+                       "limits depend on " + in_quotes(constants[k].name) + ", which is known within a tolerance only",
+                       "numbers and constants without a tolerance");
+    values.define(constants[k]);
+  }
   return values;
 }
 

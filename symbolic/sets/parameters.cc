@@ -9,6 +9,7 @@
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/algebra/expression_range.h"
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/cusps_and_nodes.h"
@@ -18,10 +19,7 @@
 namespace corank::symbolic {
 namespace {
 
-using Kind = Expression::Kind;
 using Values = std::map<std::string, Expression>;
-
-constexpr double kMargin = 0.02;  // of a range that depends on a parameter
 
 class Family {
  public:
@@ -150,41 +148,17 @@ class Family {
     const UpwardRounding rounding;
     const Interval range =
         Interval::hull(enclosed(c.lower.substituted(values_), c), enclosed(c.upper.substituted(values_), c));
-    const double margin = kMargin * range.width();
     if (!range.is_bounded()) refuse("the range of " + in_quotes(c.name) + " is unbounded", "a bounded one");
-    c.lower = Expression(ExactNumber::dyadic(range.lo() - margin).text());
-    c.upper = Expression(ExactNumber::dyadic(range.hi() + margin).text());
+    c = with_range(c, range);
   }
 
-  // Over all values of the parameters; nothing but for sums, products, quotients and squares that it bounds.
+  // Over all values of the parameters.
   std::optional<Interval> try_enclose(const Expression& e) const {
-    if (is_free(e)) return exact_value(mechanism_, e, e.text()).enclose();
-    std::vector<Interval> operands;
-    if (e.kind() != Kind::function) {
-      for (const Expression& operand : e.operands()) {
-        const std::optional<Interval> range = try_enclose(operand);
-        if (!range) return std::nullopt;
-        operands.push_back(*range);
-      }
-    }
-    switch (e.kind()) {
-      case Kind::symbol: return ranges_.at(e.name());
-      case Kind::negation: return -operands[0];
-      case Kind::sum:
-      case Kind::product: {
-        Interval result = operands[0];
-        for (std::size_t k = 1; k < operands.size(); ++k)
-          result = e.kind() == Kind::sum ? result + operands[k] : result * operands[k];
-        return result;
-      }
-      case Kind::quotient:
-        if (operands[1].contains(0)) return std::nullopt;
-        return divide(operands[0], operands[1], Interval::whole());
-      case Kind::power:
-        if (const Expression& n = e.operands()[1]; n.kind() == Kind::number && n.text() == "2") return square(operands[0]);
-        return std::nullopt;
-      default: return std::nullopt;
-    }
+    return range_of(e, [this](const Expression& part) -> std::optional<Interval> {
+      if (is_free(part)) return exact_value(mechanism_, part, part.text()).enclose();
+      if (part.kind() == Expression::Kind::symbol) return ranges_.at(part.name());
+      return std::nullopt;
+    });
   }
   Interval enclosed(const Expression& e, const Coordinate& of) const {
     if (const std::optional<Interval> range = try_enclose(e)) return *range;

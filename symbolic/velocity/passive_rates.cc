@@ -48,11 +48,11 @@ class Eliminator {
     GiNaC::ex factor;
   };
 
-  // The number that a constant expression is; nothing where it is not rational.
+  // The number that a constant expression is; nothing where it is not rational, or known within a tolerance only.
   std::optional<GiNaC::numeric> number(GiNaC::ex e) const {
     const auto& constants = mechanism_.constants();
     for (auto c = constants.rbegin(); c != constants.rend(); ++c)
-      e = e.subs(bridge_.symbol(c->name) == bridge_.to_ginac(c->value, c->where));
+      if (!c->tolerance) e = e.subs(bridge_.symbol(c->name) == bridge_.to_ginac(c->value, c->where));
     if (!GiNaC::is_a<GiNaC::numeric>(e) || !GiNaC::ex_to<GiNaC::numeric>(e).is_rational()) return std::nullopt;
     return GiNaC::ex_to<GiNaC::numeric>(e);
   }

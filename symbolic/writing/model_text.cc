@@ -36,7 +36,7 @@ class Writer {
   std::string text() {
     const std::size_t constants = widest(mechanism_.constants()), rates = widest(mechanism_.rates());
     for (const Constant& c : mechanism_.constants())
-      line("[CONSTANTS]", padded(c.name, constants) + " := " + c.value.text());
+      line("[CONSTANTS]", padded(c.name, constants) + " := " + (c.tolerance ? "in " + c.tolerance->text() : c.value.text()));
     write_coordinates();
     for (; constraint_ < mechanism_.constraints().size(); ++constraint_) write_constraint();
     for (const Constraint& c : mechanism_.implied()) line("[IMPLIED EQS]", equation(c));

@@ -1,0 +1,128 @@
+// The clearance of all robots within their tolerances: no robot has a singularity in the proven ball, and one has a
+// singularity at the upper bound.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "corank/analyze/clearance/clearance.h"
+#include "corank/result/files/verification.h"
+#include "corank/study/model.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/tests/models/closed_forms.h"
+#include "corank/tests/seeds.h"
+
+namespace corank::analyze {
+namespace {
+
+using Overrides = std::vector<result::ConstantOverride>;
+
+study::Question robot(const std::string& file, const Overrides& constants) {
+  study::Model model = study::read_model(std::string(CORANK_SOURCE_DIR "/models/") + file, constants);
+  return {.model = std::move(model.mechanism),
+          .set = symbolic::SingularitySet::forward,
+          .constants = constants,
+          .assembly = std::move(model.assembly)};
+}
+
+Overrides links(double tolerance) {
+  Overrides result;
+  for (const auto& [name, value] : {std::pair("l2", "0.9"), {"l3", "0.9"}, {"l4", "0.9"}, {"l5", "0.9"}, {"d", "1.18"}})
+    result.push_back({name, std::string(value) + "±" + std::to_string(tolerance)});
+  return result;
+}
+
+Clearance clearance_for_all(const study::Question& question, const BallOptions& ball, double precision = 1e-3) {
+  solve::Control control;
+  return clearance(question, ball, {.precision = precision}, {}, control);
+}
+const BallOptions kBall{.at = {{"J3x", "1/2"}, {"J3y", "1"}}, .in = {"J3x", "J3y"}};
+
+// The distance of a five-bar's singular J3 from the ball's centre, near the nearest one.
+double distance(const std::array<double, 5>& bar) {
+  const auto [l2, l3, l4, l5, d] = bar;
+  double least = HUGE_VAL;
+  for (int k = 0; k < 4000; ++k)
+    for (const int sign : {-1, 1}) {
+      const test::Point j4 = l5 * test::direction(2 * M_PI * k / 4000);
+      const auto j2 = test::intersect_circles({d, 0}, l2, j4, l3 + l4, sign);
+      if (j2) least = std::min(least, length(j4 + (l4 / (l3 + l4)) * (*j2 - j4) - test::Point{0.5, 1}));
+    }
+  return least;
+}
+
+TEST(ToleratedClearance, OfDextarIsThatOfTheWorstRobot) {
+  const double tolerance = 0.005;
+  const Clearance c = clearance_for_all(robot("dextar.cuik", links(tolerance)), kBall);
+  ASSERT_TRUE(c.nearest.complete && c.nearest.upper);
+  EXPECT_GE(c.nearest.lower, 0.999 * *c.nearest.upper * (1 - 1e-12));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> change(-tolerance, tolerance);
+  double least = HUGE_VAL;
+  for (unsigned k = 0; k < test::seeds(100); ++k) {
+    std::array<double, 5> bar{0.9, 0.9, 0.9, 0.9, 1.18};
+    for (double& length : bar) {
+      const double by = change(random);
+      length += k % 2 == 0 ? std::copysign(tolerance, by) : by;
+    }
+    least = std::min(least, distance(bar));
+  }
+  EXPECT_GE(least, c.nearest.lower);
+  EXPECT_NEAR(least, *c.nearest.upper, 1e-5) << "all 32 corners are among the robots, but for a sampled angle";
+  ASSERT_EQ(c.robot.size(), 5u);
+  for (const CoordinateValue& v : c.robot)
+    EXPECT_NEAR(std::fabs(v.value.mid() - (v.name == "d" ? 1.18 : 0.9)), tolerance, 1e-6) << v.name;
+}
+
+TEST(ToleratedClearance, FallsAsTheTolerancesGrowAndAsFarAsToFirstOrder) {
+  const std::array<double, 5> nominal{0.9, 0.9, 0.9, 0.9, 1.18};
+  double slope = 0;
+  for (std::size_t k = 0; k < nominal.size(); ++k) {
+    std::array<double, 5> more = nominal, less = nominal;
+    more[k] += 1e-3, less[k] -= 1e-3;
+    slope += std::fabs(distance(more) - distance(less)) / 2e-3;
+  }
+  const double exact = distance(nominal);
+  for (const double tolerance : {0.0005, 0.001, 0.002, 0.004}) {
+    const Clearance c = clearance_for_all(robot("dextar.cuik", links(tolerance)), kBall, 1e-5);
+    EXPECT_GT(exact - c.nearest.lower, 0.9 * slope * tolerance) << tolerance;
+    EXPECT_LT(exact - c.nearest.lower, 1.1 * slope * tolerance) << tolerance;
+  }
+}
+
+TEST(ToleratedClearance, HasItsCertificates) {
+  const Clearance c = clearance_for_all(robot("dextar.cuik", links(0.002)), kBall, 0.01);
+  solve::Control control;
+  const result::Result free = claim_free(c, {}, control);
+  EXPECT_TRUE(free.cover.boxes.empty());
+  EXPECT_TRUE(result::verify(free).complete());
+  const auto nearest = claim_nearest(c, control);
+  ASSERT_TRUE(nearest);
+  EXPECT_TRUE(result::verify(*nearest).verified());
+  Clearance wrong = c;
+  wrong.nearest.lower = 1.02 * *c.nearest.upper;
+  EXPECT_FALSE(claim_free(wrong, {}, control).cover.boxes.empty());
+}
+
+TEST(ToleratedClearance, OfARobotFromPartsHoldsForEachRobot) {
+  const BallOptions ball{.at = {{"pose_x", "4/5"}, {"pose_y", "1/2"}, {"pose_phi", "1/10"}}, .in = {"pose_x", "pose_y"}};
+  const std::vector<std::pair<std::string, double>> constants{{"bx", 2}, {"cx", 0.8}, {"cy", 1.5}, {"px", 1}};
+  const double tolerance = 0.01;
+  const auto with = [&](const auto& text_of) {
+    Overrides overrides;
+    for (const auto& [name, value] : constants) overrides.push_back({name, text_of(value)});
+    return clearance_for_all(robot("planar/3rpr.cuik", overrides), ball, 0.005);
+  };
+  const Clearance all = with([&](double v) { return std::to_string(v) + " ± " + std::to_string(tolerance); });
+  ASSERT_TRUE(all.nearest.complete && all.nearest.upper);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> change(-tolerance, tolerance);
+  for (unsigned k = 0; k < test::seeds(3); ++k) {
+    const Clearance one = with([&](double v) { return std::to_string(v + change(random)); });
+    EXPECT_GE(*one.nearest.upper, all.nearest.lower);
+    EXPECT_LT(all.nearest.lower, one.nearest.lower) << "another robot is worse";
+  }
+}
+
+}  // namespace
+}  // namespace corank::analyze
