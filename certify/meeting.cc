@@ -47,6 +47,7 @@ bool MeetingTest::project(const Box& within, std::vector<double>& c) {
   const int m = system_.equations(), n = system_.variables();
   Eigen::VectorXd weights(n), f(m);
   for (int j = 0; j < n; ++j) weights(j) = within[j].width();
+  for (const int j : system_.parameters()) weights(j) = 0;  // they keep their values
   for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < m; ++i) f(i) = system_.evaluate_at(i, c.data()).mid();
     // The least change, in widths of the sides.
@@ -65,7 +66,8 @@ bool MeetingTest::project(const Box& within, std::vector<double>& c) {
 
 Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, const std::vector<double>& weights) {
   const int m = system_.equations();
-  const Eigen::Map<const Eigen::VectorXd> w(weights.data(), weights.size());
+  Eigen::VectorXd w = Eigen::Map<const Eigen::VectorXd>(weights.data(), weights.size());
+  for (const int j : system_.parameters()) w(j) = 0;
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(weighted(approximate_jacobian(system_, c), w));
   if (qr.rank() < m) return {};
   std::vector<int> dependent;
@@ -75,6 +77,7 @@ Sheet MeetingTest::prove(std::vector<Interval> x, const std::vector<double>& c, 
     x[k] = Interval(c[k] - r, c[k] + r);
     dependent.push_back(k);
   }
+  system_.free_parameters(x);
   return newton_prove(system_, midpoint_preconditioner(system_, c, dependent), x, workspace_);
 }
 

@@ -10,7 +10,8 @@
 
 namespace corank::certify {
 
-/// For a system of m equations in n variables and the regions of its cover's `regular` boxes (Cover::regions).
+/// For a system of m equations in n variables and the regions of its cover's `regular` boxes (Cover::regions). Parameters
+/// are free over their whole domains in what is proven here, but keep one value while it is sought.
 ///
 /// Theorem: let R and S be regions, which for every value of their n − m free variables hold exactly one solution. Each
 /// holds a connected set of solutions, the graph over its free sides. A solution in R ∩ S is on both graphs, since each is

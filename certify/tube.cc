@@ -1,5 +1,6 @@
 #include "corank/certify/tube.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "corank/certify/meeting.h"
@@ -20,10 +21,10 @@ System without_inequalities(System system) {
   return system;
 }
 
-// All sides but the last, t's.
+// All sides but free ones.
 bool has_spare_room(const Sheet& sheet) {
   constexpr double kSpare = 0.06;
-  for (std::size_t j = 0; j + 1 < sheet.region.size(); ++j) {
+  for (const int j : sheet.dependent) {
     const Interval &outer = sheet.region[j], &inner = sheet.image[j];
     const double spare = kSpare * outer.width();
     if (inner.lo() - outer.lo() < spare || outer.hi() - inner.hi() < spare) return false;
@@ -81,8 +82,10 @@ System TubeProver::extended(const TubeNode& a, const TubeNode& b) const {
 Sheet TubeProver::prove(const TubeNode& a, const TubeNode& b, std::vector<Interval> x) {
   CORANK_CHECK(UpwardRounding::active());
   const CompiledSystem compiled(extended(a, b));
-  if (compiled.equations() != bare_.size()) return {};
-  return newton_prove(compiled, midpoint_preconditioner(compiled, midpoint(x), all_but({}, bare_.size())), x, workspace_);
+  if (compiled.equations() != compiled_.unknowns()) return {};
+  compiled_.free_parameters(x);
+  const std::vector<int> dependent = all_but(compiled_.parameters(), bare_.size());
+  return newton_prove(compiled, midpoint_preconditioner(compiled, midpoint(x), dependent), x, workspace_);
 }
 
 std::optional<Box> TubeProver::node(const std::vector<double>& rows, const std::vector<double>& values,
@@ -97,6 +100,7 @@ std::optional<Box> TubeProver::node(const std::vector<double>& rows, const std::
   sheet.image.pop_back();
   // A little room, for whoever proves it again with another Y.
   for (Interval& side : sheet.image) side += Interval(-1, 1) * Interval(kRoom * (1 + side.mag()));
+  compiled_.free_parameters(sheet.image);
   return std::move(sheet.image);
 }
 
@@ -112,6 +116,7 @@ std::optional<Box> TubeProver::piece(const TubeNode& a, const TubeNode& b) {
     if (!sheet.proven) return std::nullopt;
     if (has_spare_room(sheet)) {
       sheet.region.pop_back();
+      compiled_.free_parameters(sheet.region);
       if (!contains(sheet.region, a.box) || !contains(sheet.region, b.box)) return std::nullopt;
       return std::move(sheet.region);
     }
@@ -124,6 +129,7 @@ bool TubeProver::is_free(const Box& piece, double r, const std::vector<double>& 
   CORANK_CHECK(UpwardRounding::active() && sizes.size() == piece.size());
   Box box = piece;
   for (std::size_t j = 0; j < box.size(); ++j) box[j] += Interval(-r, r) * Interval(sizes[j]);
+  compiled_.free_parameters(box);  // of robots outside their tolerances nothing is said
   if (domain_.locate(compiled_, box) != Location::inside) return false;
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     if (bounds_[k].at_most(box, kHalvings) > most_[k]) return false;
@@ -132,7 +138,12 @@ bool TubeProver::is_free(const Box& piece, double r, const std::vector<double>& 
 
 bool TubeProver::joins(const Box& a, const Box& b, const Box& within) {
   MeetingTest test(bare_);
-  for (const double radius : {1e-9, 1e-7, 1e-5, 1e-4}) {
+  double reach = 0;  // of both boxes from the middle of the first, in the units of sheet_about
+  for (const int j : all_but(compiled_.parameters(), bare_.size())) {
+    const Interval side = Interval::hull(a[j], b[j]) - Interval(a[j].mid());
+    reach = std::max(reach, side.mag() / compiled_.scales()[j]);
+  }
+  for (const double radius : {1e-9, 1e-7, 1e-5, 1e-4, 1.1 * reach, 2 * reach}) {
     const Sheet piece = test.sheet_about(a, radius);
     if (piece.proven && contains(piece.region, a) && contains(piece.region, b) && contains(within, piece.region))
       return true;

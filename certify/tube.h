@@ -19,7 +19,9 @@ namespace corank::certify {
 /// box P, by newton_prove with the free variable t: the Jacobian in x is regular there, so x(t) is continuous (implicit
 /// function theorem). Where the box N of a node lies in the boxes P, P' of both its pieces and holds a solution of F = 0,
 /// T·x = c, that is P's at t = 1 and P''s at t = 0, since each has one only: the pieces are one path.
-/// Every x with F(x) = 0 in P inflated by r has matrices of full rank and is in the domain, where is_free(P, r, sizes).
+/// Parameters are free as t is, over their whole domains, so that this holds for every robot: it has a path x(t) of its own.
+/// Every x with F(x) = 0 in P inflated by r, but for parameters, has matrices of full rank and is in the domain, where
+/// is_free(P, r, sizes).
 class TubeProver {
  public:
   /// ranks: of each matrix, the one that it is to have.

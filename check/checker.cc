@@ -68,6 +68,7 @@ class Checker {
       return fail(Place::cover, 0, std::string("a self-motion: ") + error.what());
     }
     check_order();
+    check_parameters();
     check_asked_types();
     exact_ = std::make_unique<ExactPoints>(system_, cover_, types_.get(), stop_);
     enter("the exact points");
@@ -109,6 +110,12 @@ class Checker {
       if (!valid(cover_.points[i])) fail(Place::point, i, fault);
     for (const Box& region : cover_.regions)
       if (!is_box(region, n)) fail(Place::cover, 0, "a region does not have one bounded side for each variable");
+  }
+
+  // Each of them would be one robot's.
+  void check_parameters() {
+    if (system_.parameters() > 0 && !(cover_.exact_points.empty() && cover_.self_motions.empty()))
+      fail(Place::cover, 0, "constants have tolerances, but it has exact points or self-motions");
   }
 
   void check_asked_types() {

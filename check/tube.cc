@@ -20,6 +20,7 @@ class TubeCheck {
  public:
   TubeCheck(const System& system, const std::vector<PolynomialMatrix>& matrices, const Tube& tube, const StopFlag& stop)
       : system_(system), tube_(tube), problem_(system, {}, stop), n_(system.variables.size()) {
+    for (int j = 0; j < system.size(); ++j) (system.variables[j].is_parameter() ? parameters_ : unknowns_).push_back(j);
     for (const PolynomialMatrix& m : matrices) {
       std::set<int> filled;  // rows
       for (int k = 0; k < m.rows * m.columns; ++k)
@@ -34,14 +35,19 @@ class TubeCheck {
     if (tube_.nodes.size() < 2) return "a tube has at least two nodes";
     if (tube_.pieces.size() + 1 != tube_.nodes.size()) return "there is not one piece between each two nodes";
     if (tube_.radii.size() != tube_.pieces.size()) return "there is not one radius for each piece";
-    if (system_.equations.size() >= n_) return "the system leaves no motion";
-    const std::size_t across = n_ - system_.equations.size();
+    if (system_.equations.size() >= unknowns_.size()) return "the system leaves no motion";
+    const std::size_t across = unknowns_.size() - system_.equations.size();
     for (const TubeNode& node : tube_.nodes)
       if (!is_box(node.box, n_) || node.values.size() != across || node.rows.size() != across * n_ || !finite(node.values) ||
           !finite(node.rows))
         return "a node does not have the system's sizes";
     for (const Box& piece : tube_.pieces)
       if (!is_box(piece, n_)) return "a piece's box does not have the system's sizes";
+    for (const int p : parameters_) {
+      const auto holds_all = [&](const Box& box) { return box[p].contains(system_.variables[p].domain); };
+      if (!std::ranges::all_of(tube_.pieces, holds_all) || !std::ranges::all_of(tube_.nodes, holds_all, &TubeNode::box))
+        return "a box does not hold every value of " + system_.variables[p].name;
+    }
     for (const double r : tube_.radii)
       if (!(std::isfinite(r) && r >= 0)) return "a radius is not a length";
     if (tube_.sizes.size() != n_) return "there is not one size for each variable";
@@ -75,7 +81,7 @@ class TubeCheck {
     Sides x(box.begin(), box.end());
     x.push_back(t);
     Krawczyk krawczyk(rows, static_cast<int>(x.size()));
-    if (!krawczyk.set(all_but({}, system_.size()), x, around)) return "its equations are singular";
+    if (!krawczyk.set(unknowns_, x, around)) return "its equations are singular";
     if (!krawczyk.is_inside(krawczyk.image(x), x)) return none;
     return krawczyk.is_injective(x) ? "" : more;
   }
@@ -105,12 +111,15 @@ class TubeCheck {
     Box box;
     for (std::size_t j = 0; j < n_; ++j) {
       const Interval& side = piece[j];
-      const double room = std::nextafter(radius * tube_.sizes[j], kInfinity);
+      const bool varies = !system_.variables[j].is_parameter();  // of robots outside their tolerances nothing is said
+      const double room = varies ? std::nextafter(radius * tube_.sizes[j], kInfinity) : 0;
       box.emplace_back(std::nextafter(side.lo() - room, -kInfinity), std::nextafter(side.hi() + room, kInfinity));
     }
     const Sides x(box.begin(), box.end());
     for (const Condition& c : problem_.conditions())
-      if (!c.implied && !c.row.value(x).is_nonnegative()) return "a range, a limit or an inequality is not shown about it";
+      if (!c.implied && !(c.variable >= 0 && system_.variables[c.variable].is_parameter()) &&
+          !c.row.value(x).is_nonnegative())
+        return "a range, a limit or an inequality is not shown about it";
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (!kernels_[k].is_at_most(most_[k], box)) return "a singularity is not excluded about it";
     return "";
@@ -119,6 +128,7 @@ class TubeCheck {
   const System& system_;
   const Tube& tube_;
   Problem problem_;
+  std::vector<int> parameters_, unknowns_;
   std::vector<KernelCheck> kernels_;
   std::vector<int> most_;
   std::size_t n_;

@@ -18,9 +18,7 @@ namespace {
 
 using symbolic::ModelError;
 
-// Returns the constants that get a tolerance; the robot gets their nominal values.
-std::vector<symbolic::Constant> put_in(const std::vector<result::ConstantOverride>& overrides, kinematics::Robot& robot) {
-  std::vector<symbolic::Constant> toleranced;
+void put_in(const std::vector<result::ConstantOverride>& overrides, kinematics::Robot& robot) {
   for (const result::ConstantOverride& o : overrides) {
     const auto known =
         std::find_if(robot.constants.begin(), robot.constants.end(), [&](const auto& c) { return c.name == o.name; });
@@ -28,19 +26,21 @@ std::vector<symbolic::Constant> put_in(const std::vector<result::ConstantOverrid
       throw ModelError({robot.file, 0, 0}, "there is no constant '" + o.name + "'", "a constant of the robot");
     const symbolic::Constant read = symbolic::parse_constant(o.name, o.expression, "-D " + o.name);
     known->value = read.value;
-    if (read.tolerance) toleranced.push_back(read);
+    known->tolerance = read.tolerance;
   }
-  return toleranced;
 }
 
 // Throws ModelError where the equations that belong to the nominal values are not proven to hold for every other one.
-void put_in(const std::vector<symbolic::Constant>& toleranced, kinematics::Assembly& assembly) {
+void put_in_tolerances(const std::vector<symbolic::Constant>& constants, kinematics::Assembly& assembly) {
+  std::vector<symbolic::Constant> toleranced;
   std::vector<symbolic::Parameter> parameters;
-  for (const symbolic::Constant& c : toleranced)
-    if (assembly.mechanism.has_constant(c.name)) parameters.push_back({c.name, c.tolerance->lower, c.tolerance->upper});
+  for (const symbolic::Constant& c : constants) {
+    if (!c.tolerance || !assembly.mechanism.has_constant(c.name)) continue;
+    toleranced.push_back(c);
+    parameters.push_back({c.name, c.tolerance->lower, c.tolerance->upper});
+  }
   symbolic::check_conditions(assembly.mechanism, assembly.conditions, parameters);
-  for (const symbolic::Constant& c : toleranced)
-    if (assembly.mechanism.has_constant(c.name)) assembly.mechanism.set_constant(c.name, c.value, c.tolerance);
+  for (const symbolic::Constant& c : toleranced) assembly.mechanism.set_constant(c.name, c.value, c.tolerance);
 }
 
 // Joints that leave other freedom than they count for, and whether the equations are as many as the robot's freedom.
@@ -101,10 +101,10 @@ std::optional<std::string> only_positions(const kinematics::Robot& robot, const 
 }
 
 Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOverride>& constants) {
-  const std::vector<symbolic::Constant> toleranced = put_in(constants, robot);
+  put_in(constants, robot);
   if (!robot.missing.empty()) throw ModelError({robot.file, 0, 0}, robot.missing.front(), "all files that the robot names");
   Model model{symbolic::Mechanism(robot.name), kinematics::assemble(robot), robot.notices};
-  put_in(toleranced, *model.assembly);
+  put_in_tolerances(robot.constants, *model.assembly);
   model.mechanism = model.assembly->mechanism;
   const std::string file = std::filesystem::path(robot.file).filename().string();
   if (!model.mechanism.coordinates().empty())

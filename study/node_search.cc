@@ -55,7 +55,7 @@ NodeSearch node_search(const Question& question, const System& system, const sol
   const symbolic::Mechanism mechanism = question.model.without_rates();
   const System locus = locus_of(mechanism, *question.set);
   // Functions of lengths have variables of their own behind the kernel's.
-  if (locus.variables.back().kind != VariableKind::kernel) return result;
+  if (locus.variables.back().kind != VariableKind::kernel || locus.parameters() > 0) return result;
   solve::Options search;
   search.threads = options.threads;
   const Cover cover = solve::solve(solve::prepare(locus, search, control), control);

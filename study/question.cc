@@ -75,6 +75,14 @@ void require_exact_constants(const symbolic::Mechanism& model, const std::string
           "one value, for example -D " + c.name + "=" + c.value.text());
 }
 
+void require_exact_value(const symbolic::Mechanism& model, const symbolic::Expression& value, const std::string& what) {
+  if (const std::string name = model.toleranced_in(value); !name.empty())
+    throw symbolic::ModelError(
+        {model.name(), 0, 0},
+        what + ", " + value.text() + ", depends on " + symbolic::in_quotes(name) + ", which has a tolerance",
+        "the same value for all robots");
+}
+
 std::vector<Question> parts_of(const Question& question, const Ended& ended) {
   if (!question.set) return {question};
   if (!question.model.toleranced().empty()) {  // a factor, and what meets at a limit, is one robot's

@@ -30,6 +30,9 @@ struct Question {
 /// Throws ModelError where a constant is known within a tolerance only: `asker` answers for one robot.
 void require_exact_constants(const symbolic::Mechanism& model, const std::string& asker);
 
+/// Throws ModelError where the value depends on such a constant: `what` ("the centre") has to be the same for all robots.
+void require_exact_value(const symbolic::Mechanism& model, const symbolic::Expression& value, const std::string& what);
+
 /// Of a set that is solved in parts the question about each of them (symbolic/sets/set_parts.h); of another set the question
 /// itself. A union, or a set that has an equation in place of the kernel vector, is solved so where it has dimension 2 or
 /// more, or the robot has written-out parallelograms, along whose flat positions parts coincide; where it is asked for

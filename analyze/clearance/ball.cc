@@ -237,6 +237,10 @@ Ball BallMaker::make() {
   if (options_.in.empty())
     throw error("the ball has no coordinates", "one or more of the model's coordinates, as in --in x,y");
   for (const NamedValue& v : options_.at) check_value(v);
+  for (const NamedValue& v : options_.at) study::require_exact_value(question_.model, v.value, v.name);
+  for (const NamedRange& r : options_.ranges)
+    for (const Expression& end : {r.lower, r.upper})
+      study::require_exact_value(question_.model, end, "the range of " + r.name);
   for (const std::string& name : options_.in) {
     if (std::ranges::count(options_.in, name) > 1) throw error("'" + name + "' is twice in the ball", "each once");
     add_center(name);

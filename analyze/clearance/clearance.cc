@@ -134,7 +134,15 @@ result::Result claim_free(const Clearance& clearance, const solve::Options& sear
   result::Result result = study::answer(question, of_any_robot(system), options, control);
   result::describe_system(system, result);
   result.system_text = symbolic::to_cuik(system);
-  result.cover.dimension = system.dimension();
+  if (system.parameters() == 0) return result;
+  result.cover.dimension = std::max(0, result.cover.dimension - system.parameters());
+  for (CoverBox& box : result.cover.boxes) {  // of some robots only: where some are left, nothing is claimed of them
+    box.verdict = Verdict::undecided;
+    box.free.clear();
+    box.region = box.kernel_at_most = -1;
+    box.types = {};
+  }
+  result.cover.regions.clear();
   return result;
 }
 

@@ -50,6 +50,7 @@ bool is_circle(const Polynomial& f, const Angle& angle) {
 System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
   System system = space.system();
   for (const NamedValue& v : values) {
+    study::require_exact_value(space.question().model, v.value, v.name);
     const ExactNumber value = symbolic::exact_value(space.question().model, v.value, v.name);
     const auto angle = std::ranges::find_if(system.angles, [&](const Angle& a) { return a.name == v.name; });
     const int length = system.find(v.name);
@@ -76,19 +77,30 @@ System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
 class PathFinder::Search {
  public:
   Search(const study::Question& question, const PathOptions& options)
-      : space_(question, options.avoid, kMostOfGraph), options_(options), builder_(space_) {}
+      : space_(nominal(question), options.avoid, kMostOfGraph), options_(options), planner_(space_) {
+    if (!question.model.toleranced().empty()) all_.emplace(question, options.avoid);
+    builder_.emplace(space());
+  }
 
-  const PathSpace& space() const { return space_; }
+  /// Of all robots: where ends are, and tubes.
+  const PathSpace& space() const { return all_ ? *all_ : space_; }
   const PathOptions& options() const { return options_; }
   Path find(const Box& from, const Box& to, solve::Control& control);
 
  private:
   struct Ends {
     Box from, to;
-    PathSpace::Point a, b;
+    PathSpace::Point a, b;   // of the robot as drawn
     PathSpace::State state;  // at the start
     std::vector<int> signs;  // likewise, proven
   };
+  static study::Question nominal(study::Question question) {
+    question.model = question.model.nominal();
+    return question;
+  }
+  /// Of the robot as drawn, a configuration in the box or near it, and the other way round.
+  PathSpace::Point drawn(const Box& box) const;
+  PathSpace::Point of_all(const PathSpace::Point& x) const;
 
   bool try_way(const Ends& ends, const TubeBuilder::Points& points, const std::string& method, Path& path,
                const solve::Control& control, std::size_t* failed = nullptr);
@@ -97,20 +109,45 @@ class PathFinder::Search {
   void find_by_sampling(const Ends& ends, const std::vector<double>& shares, double seconds, Path& path,
                         const solve::Control& control);
 
-  PathSpace space_;
+  PathSpace space_;               // of the robot as drawn, in which ways are sought
+  std::optional<PathSpace> all_;  // where constants have tolerances
   PathOptions options_;
-  TubeBuilder builder_;
+  TubeBuilder planner_;
+  std::optional<TubeBuilder> builder_;
   std::deque<PathGraph> graphs_;
 };
+
+PathSpace::Point PathFinder::Search::drawn(const Box& box) const {
+  if (!all_) return space_.middle(box);
+  PathSpace::Point x(space_.size());
+  for (int j = 0; j < space_.size(); ++j)
+    x(j) = box[all_->system().find(space_.system().variables[j].name)].mid() / space_.sizes()[j];
+  space_.project(x);
+  return x;
+}
+
+PathSpace::Point PathFinder::Search::of_all(const PathSpace::Point& x) const {
+  if (!all_) return x;
+  PathSpace::Point result(all_->size());
+  for (int j = 0; j < all_->size(); ++j) {
+    const Variable& v = all_->system().variables[j];
+    const int own = space_.system().find(v.name);
+    const double value = own < 0 ? v.domain.mid() : x(own) * space_.sizes()[own];
+    result(j) = value / all_->sizes()[j];
+  }
+  return result;
+}
 
 bool PathFinder::Search::try_way(const Ends& ends, const TubeBuilder::Points& points, const std::string& method, Path& path,
                                  const solve::Control& control, std::size_t* failed) {
   std::vector<double> radii{0.0};
   if (options_.radius > 0) radii = {options_.radius, 0.0};
-  const TubeBuilder::Points shorter = builder_.shortcut(points, kNearBoundary, control);
+  const TubeBuilder::Points shorter = planner_.shortcut(points, kNearBoundary, control);
   for (const double radius : radii)
     for (const TubeBuilder::Points* way : {&shorter, &points}) {
-      TubeBuilder::Outcome outcome = builder_.build(ends.from, *way, ends.to, radius, control);
+      TubeBuilder::Points of_each;
+      for (const PathSpace::Point& x : *way) of_each.push_back(of_all(x));
+      TubeBuilder::Outcome outcome = builder_->build(ends.from, of_each, ends.to, radius, control);
       if (failed) *failed = outcome.failed;
       if (!outcome.tube) continue;
       path.status = Path::Status::path;
@@ -133,7 +170,7 @@ void PathFinder::Search::find_by_graph(const Ends& ends, Path& path, solve::Cont
     PathGraph& graph = graphs_[level];
     if (!graph.ready()) break;
     path.resolution = graph.sigma();
-    if (space_.sign_functions() > 0 && graph.apart(ends.from, ends.to, ends.signs)) {
+    if (!all_ && space_.sign_functions() > 0 && graph.apart(ends.from, ends.to, ends.signs)) {
       path.status = Path::Status::separated;
       path.reason =
           fmt::format("no chain of boxes of a cover with edges of {:g} joins the ends without a singularity", graph.sigma());
@@ -141,7 +178,7 @@ void PathFinder::Search::find_by_graph(const Ends& ends, Path& path, solve::Cont
     }
     PathGraph::Blocked blocked;
     for (int k = 0; k < kTubeTries && !control.ended(); ++k) {
-      const auto way = graph.way(ends.a, ends.b, ends.state.signs, builder_, blocked, control);
+      const auto way = graph.way(ends.a, ends.b, ends.state.signs, planner_, blocked, control);
       if (!way) break;
       std::size_t failed = 0;
       if (try_way(ends, *way, "graph", path, control, &failed)) return;
@@ -171,13 +208,13 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
   Path path;
   path.from = from;
   path.to = to;
-  Ends ends{from, to, space_.middle(from), space_.middle(to), {}, {}};
+  Ends ends{from, to, drawn(from), drawn(to), {}, {}};
   ends.state = space_.state(ends.a);
   std::vector<int> there;
   {
     const UpwardRounding rounding;
-    ends.signs = space_.signs(from);
-    there = space_.signs(to);
+    ends.signs = space().signs(from);
+    there = space().signs(to);
   }
   const auto known = [](const std::vector<int>& signs) { return std::ranges::find(signs, 0) == signs.end(); };
   const PathSpace::State goal = space_.state(ends.b);
@@ -192,7 +229,7 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
     const double step = std::max(1e-3, (ends.b - ends.a).norm() / 200);
     const double least = kNearBoundary * std::min(ends.state.margin, goal.margin);
     const auto accept = [&](const PathSpace::Point& x) { return space_.admits(x, ends.state.signs, least); };
-    const auto between = builder_.follow(ends.a, ends.b, step, accept);
+    const auto between = planner_.follow(ends.a, ends.b, step, accept);
     if (!between || !try_way(ends, {ends.a, ends.b}, "direct", path, control)) {
       // A cover of three dimensions is dear: samples, which may find a way but never that there is none, come first.
       const int dimension = space_.dimension();
@@ -206,12 +243,12 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
   }
   if (path.tube) {
     std::vector<std::string> names;
-    const auto values = node_values(space_.system(), *path.tube, names);
+    const auto values = node_values(space().system(), *path.tube, names);
     for (std::size_t k = 1; k < values.size(); ++k) {
       double squares = 0;
       for (std::size_t j = 0; j < names.size(); ++j) {
-        const int length = space_.system().find(names[j]);  // an angle is no variable
-        const double size = length < 0 ? 1 : space_.sizes()[length];
+        const int length = space().system().find(names[j]);  // an angle is no variable
+        const double size = length < 0 ? 1 : space().sizes()[length];
         squares += std::pow((values[k][j] - values[k - 1][j]) / size, 2);
       }
       path.length += std::sqrt(squares);

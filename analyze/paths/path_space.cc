@@ -29,12 +29,12 @@ bool is_square(const std::vector<int>& rows, const PolynomialMatrix& m) {
 }  // namespace
 
 PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factors) : question_(std::move(question)) {
-  study::require_exact_constants(question_.model, "corank path");
   question_.set = symbolic::SingularitySet::cspace;
   question_.corank = 1;
   equations_ = study::equations(question_);
   system_ = study::system(question_, equations_);
-  const bool with_factors = dimension() <= most_with_factors;
+  // A factor is one robot's.
+  const bool with_factors = dimension() <= most_with_factors && system_.parameters() == 0;
   if (avoid != Avoid::inverse) add_matrix(symbolic::SingularitySet::forward, with_factors);
   if (avoid != Avoid::forward) add_matrix(symbolic::SingularitySet::inverse, with_factors);
   std::vector<Polynomial> values;
@@ -163,6 +163,7 @@ Eigen::MatrixXd PathSpace::jacobian(const Point& x) const {
   for (int i = 0; i < compiled_->equations(); ++i)
     for (int k = compiled_->row_begin(i); k < compiled_->row_begin(i + 1); ++k)
       j(i, compiled_->column(k)) += entries[k] * sizes_[compiled_->column(k)] / equation_sizes_[i];
+  for (const int p : compiled_->parameters()) j.col(p).setZero();
   return j;
 }
 
@@ -188,7 +189,11 @@ bool PathSpace::project(Point& x, double reach) const {
 }
 
 Eigen::MatrixXd PathSpace::tangent(const Point& x) const {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian(x).transpose());
+  const std::vector<int>& parameters = compiled_->parameters();  // which keep their values
+  Eigen::MatrixXd conditions = Eigen::MatrixXd::Zero(compiled_->equations() + std::ssize(parameters), size());
+  conditions.topRows(compiled_->equations()) = jacobian(x);
+  for (std::size_t k = 0; k < parameters.size(); ++k) conditions(compiled_->equations() + k, parameters[k]) = 1;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(conditions.transpose());
   const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(size(), size());
   return q.rightCols(dimension());
 }

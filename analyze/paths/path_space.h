@@ -23,7 +23,8 @@ class PathSpace {
   const study::Question& question() const { return question_; }
   const System& system() const { return system_; }
   int size() const { return system_.size(); }
-  int dimension() const { return system_.size() - static_cast<int>(system_.equations.size()); }
+  /// Of each robot's C-space; negative where there are more equations.
+  int dimension() const { return system_.size() - static_cast<int>(system_.equations.size()) - system_.parameters(); }
   /// L_y, L_z or both over the system's variables, and the ranks that they have but at singularities.
   const std::vector<PolynomialMatrix>& matrices() const { return matrices_; }
   const std::vector<int>& ranks() const { return ranks_; }
@@ -52,7 +53,7 @@ class PathSpace {
   Eigen::MatrixXd jacobian(const Point& x) const;
   /// Moves x to a solution nearby by Newton steps of least change. False: none was found within `reach`.
   bool project(Point& x, double reach = 1e300) const;
-  /// An orthonormal basis of the tangent space, one vector a column.
+  /// An orthonormal basis of the tangent space of one robot's C-space, one vector a column.
   Eigen::MatrixXd tangent(const Point& x) const;
   struct State {
     std::vector<int> signs;  ///< of determinants and of their factors

@@ -48,6 +48,8 @@ std::string to_text(const PathFinder& finder, const Path& path) {
   const auto line = [&](const std::string& name, const std::string& value) {
     text += fmt::format("  {:<10}  {}\n", name, value);
   };
+  if (const auto toleranced = finder.question().model.toleranced(); !toleranced.empty())
+    line("robots", fmt::format("every one within the tolerances of {}", fmt::join(toleranced, ", ")));
   line("status", path.status == Path::Status::path        ? "path, proven"
                  : path.status == Path::Status::separated ? "separated: it is proven that no such path exists"
                                                           : "unknown");

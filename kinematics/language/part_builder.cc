@@ -77,7 +77,7 @@ void PartBuilder::push_constant(std::string_view name_read, const SourceLocation
 }
 
 void PartBuilder::define_constant() {
-  const symbolic::Constant constant{resolve(declared), pop_value(), declared_where};
+  const symbolic::Constant constant{resolve(declared), pop_value(), declared_where, std::exchange(tolerance, {})};
   if (scope.has(constant.name)) {
     const auto first = std::find_if(robot.constants.begin(), robot.constants.end(),
                                     [&](const symbolic::Constant& c) { return c.name == constant.name; });

@@ -22,7 +22,9 @@ struct no_gap : success {};
 
 using model::assign, model::constant_end, model::constant_name, model::file_end, model::point_end, model::point_name;
 using model::header, model::word, model::section_or_end, model::known_section, model::unknown_section;
+using model::percent_token, model::value_range_word, model::range_close, model::range_comma, model::tolerance_end;
 using model::section_start, model::unit_name;
+using model::value_range_end;
 template <typename... Letters>
 struct words : word<sor<Letters...>> {};
 #define CORANK_WORD(name, text) \
@@ -178,13 +180,17 @@ struct inputs_header : header<any_case<"inputs">> {};
 struct outputs_header : header<any_case<"outputs">> {};
 struct capital_header : header<upper, star<sor<upper, model::blank_character>>> {};
 
-// [CONSTANTS]  name := expression, print name, unit mm
+// [CONSTANTS]  name := expression, also with ± expression, ± number %, or in [lower, upper]; print name, unit mm
 struct colon : one<':'> {};
 CORANK_WORD(print_word, "print");
 CORANK_WORD(unit_word, "unit");
 struct print_statement : seq<seq<print_word, gap, at<simple_name>>, simple_name> {};
 struct unit_statement : seq<seq<unit_word, gap, at<simple_name>>, unit_name> {};
-struct definition : seq<must<constant_name>, gap, must<assign>, gap, expression, constant_end, opt<gap, one<';'>>> {};
+struct tolerance : seq<string<'\xC2', '\xB1'>, gap, sor<percent_token, seq<expression, tolerance_end>>> {};
+struct value_range : seq<value_range_word, gap, one<'['>, gap, expression, gap, must<range_comma>, gap, expression, gap,
+                         must<range_close>, value_range_end> {};
+struct definition : seq<must<constant_name>, gap, must<assign>, gap, sor<value_range, seq<expression, opt<gap, tolerance>>>,
+                        constant_end, opt<gap, one<';'>>> {};
 struct constants_section
     : seq<constants_header, star<gap, not_at<section_or_end>, sor<print_statement, unit_statement, definition>>> {};
 

@@ -144,6 +144,11 @@ def linspace(start: Union[str, int, float, Fraction], stop: Union[str, int, floa
     return [first + (last - first) * Fraction(k, count - 1) for k in range(count)]
 
 
+def constant_text(value: ExpressionLike) -> str:
+    """Returns a constant's value as a text of the model language; a text may have a tolerance."""
+    return value if isinstance(value, str) else text_of(value)
+
+
 def text_of(value: ExpressionLike) -> str:
     """Returns the value as a text of the model language."""
     return str(as_expression(value))

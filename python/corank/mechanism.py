@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Seq
 from . import _corank, analyses, mapping, notebook, pages, pathing, result, sweeping
 from ._corank import Expression
 from .errors import deliver
-from .expression import ExpressionLike, RelationLike, as_expression, as_relation, pi, text_of
+from .expression import ExpressionLike, RelationLike, as_expression, as_relation, constant_text, pi
 from .options import ask, make_options
 from .progress import ProgressOption, Shown
 from .result import PathLike, Result
@@ -172,7 +172,7 @@ class Mechanism:
         Raises:
             ModelError: if it does not have such a constant.
         """
-        pairs = [(name, text_of(value)) for name, value in {**(constants or {}), **more}.items()]
+        pairs = [(name, constant_text(value)) for name, value in {**(constants or {}), **more}.items()]
         return Mechanism._of(self._core.with_constants(pairs))
 
     def copy(self) -> "Mechanism":
@@ -356,12 +356,12 @@ def load(path: PathLike, loops: Optional[PathLike] = None, **constants: Expressi
 
     Args:
         loops: the companion of a URDF file: the joints that close loops, the inputs and the outputs.
-        constants: other values of constants: load("dextar.cuik", l2="4/5").
+        constants: other values of constants: load("dextar.cuik", l2="4/5", d="1.18 ± 0.001").
 
     Raises:
         ModelError: if the file is wrong; it names file, line and column.
     """
-    pairs = [(name, text_of(value)) for name, value in constants.items()]
+    pairs = [(name, constant_text(value)) for name, value in constants.items()]
     return Mechanism._of(_corank.load(os.fspath(path), None if loops is None else os.fspath(loops), pairs))
 
 
@@ -377,5 +377,5 @@ def parse(text: str, name: str = "model.cuik", loops: Optional[str] = None, **co
     if not os.path.splitext(name)[1]:
         name += ".cuik"
     companion = None if loops is None else (loops, os.path.splitext(name)[0] + ".loops", "")
-    pairs = [(constant, text_of(value)) for constant, value in constants.items()]
+    pairs = [(constant, constant_text(value)) for constant, value in constants.items()]
     return Mechanism._of(_corank.parse((text, name, ""), companion, pairs))

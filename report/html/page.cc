@@ -29,7 +29,7 @@ TemplateData run_row(const SetView& view, const std::string& file) {
 std::string fixed_html(const symbolic::Mechanism& mechanism) {
   std::vector<symbolic::Coordinate> fixed = mechanism.coordinates();
   std::erase_if(fixed, [](const symbolic::Coordinate& c) { return !is_fixed(c); });
-  return result::joined(fixed, [](const symbolic::Coordinate& c) { return constant_html(c.name, c.lower); });
+  return result::joined(fixed, [](const symbolic::Coordinate& c) { return constant_html({c.name, c.lower, {}}); });
 }
 
 /// And "tied by 1 equation" where equations speak of them alone.
@@ -53,7 +53,7 @@ std::string found_html(const result::Result& result) {
 /// The constants that were given with -D.
 std::string overridden_html(const result::Result& result) {
   return result::joined(result.options.constants, [](const result::ConstantOverride& c) {
-    return constant_html(c.name, symbolic::parse_constant(c.name, c.expression, "-D " + c.name).value);
+    return constant_html(symbolic::parse_constant(c.name, c.expression, "-D " + c.name));
   });
 }
 

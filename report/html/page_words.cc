@@ -236,15 +236,17 @@ std::string chosen_html(const symbolic::Mechanism& mechanism, symbolic::Role rol
 }
 
 // The name in HTML, whose subscripts do not depend on the reader having a font for mathematics.
-std::string constant_html(const std::string& name, const symbolic::Expression& value) {
-  return "<span class=\"constant\">" + symbolic::html_name(name) + " = " + symbolic::math(symbolic::mathml(value)) +
-         "</span>";
+std::string constant_html(const symbolic::Constant& c) {
+  const auto text = [](const symbolic::Expression& e) { return symbolic::math(symbolic::mathml(e)); };
+  const std::string tolerance =
+      c.tolerance ? " <small>in [" + text(c.tolerance->lower) + ", " + text(c.tolerance->upper) + "]</small>" : "";
+  return "<span class=\"constant\">" + symbolic::html_name(c.name) + " = " + text(c.value) + tolerance + "</span>";
 }
 
 std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except) {
   std::vector<symbolic::Constant> shown = mechanism.constants();
   std::erase_if(shown, [&](const symbolic::Constant& c) { return c.name == except; });
-  return shown.empty() ? "none" : joined(shown, [](const auto& c) { return constant_html(c.name, c.value); });
+  return shown.empty() ? "none" : joined(shown, constant_html);
 }
 
 std::string digits_text(const Interval& x) { return with_minus(result::outward_text(x, 9)); }
@@ -258,6 +260,10 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
   words.meaning = meaning(called, corank, given_velocity_equation);
   if (const std::size_t in_one = boxes_in_one(result, found); in_one > 1)
     words.meaning += fmt::format("; drawn here: hulls of up to {} neighbouring boxes with the same verdict", in_one);
+  if (const auto parameters = result::parameters_of(result); !parameters.empty())
+    words.proven.push_back(fmt::format("All of this holds for every robot within the tolerance{} of {}.",
+                                       parameters.size() == 1 ? "" : "s",
+                                       joined(parameters, [](const auto* v) { return v->name; })));
   if (cover.boxes.empty()) {
     say_none(result, given_velocity_equation && called.given_none ? called.given_none : called.none, words);
     return words;

@@ -32,7 +32,8 @@ std::string names_html(const std::vector<std::string>& names);
 /// coordinates one by one.
 std::string chosen_html(const symbolic::Mechanism& mechanism, symbolic::Role role);
 /// "<i>l</i> = 9/10" with the value in MathML.
-std::string constant_html(const std::string& name, const symbolic::Expression& value);
+/// With its tolerance.
+std::string constant_html(const symbolic::Constant& constant);
 /// "l = 9/10, d = 1.18", likewise, without the constant `except`; "none" where there is no other.
 std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except = "");
 /// One cell of a table for each coordinate: bounds with the digits that are proven, the rest in brackets.

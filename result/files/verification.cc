@@ -162,6 +162,8 @@ void add(const Report& part, const std::string& name, bool first, Report& sum) {
 
 Verification verify_parts(const Result& result, Verification verification, const check::Options& options) {
   const symbolic::Mechanism model = model_of(result);
+  if (!model.toleranced().empty())
+    verification.contradictions.emplace_back("it has parts, which are one robot's, but the model has tolerances");
   for (std::string& c : contradictions_of_parts(model, result)) verification.contradictions.push_back(std::move(c));
   for (std::size_t i = 0; verification.contradictions.empty() && i < result.parts.size(); ++i) {
     const Result& part = result.parts[i];

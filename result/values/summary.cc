@@ -206,13 +206,6 @@ std::string along_set_text(const Cover& cover) {
 
 namespace {
 
-std::vector<const ResultVariable*> parameters_of(const Result& result) {
-  std::vector<const ResultVariable*> list;
-  for (const ResultVariable& v : result.variables)
-    if (v.kind == VariableKind::parameter) list.push_back(&v);
-  return list;
-}
-
 std::string in_words(Reason reason, const Result& result) {
   const Cover& cover = result.cover;
   using enum Reason;

@@ -71,6 +71,13 @@ std::vector<Value> values(const Result& result, const CoverBox& box, int variabl
   return list;
 }
 
+std::vector<const ResultVariable*> parameters_of(const Result& result) {
+  std::vector<const ResultVariable*> list;
+  for (const ResultVariable& v : result.variables)
+    if (v.kind == VariableKind::parameter) list.push_back(&v);
+  return list;
+}
+
 KernelTally kernel_tally(const Result& result) {
   KernelTally tally;
   for (const CoverBox& box : result.cover.boxes) {

@@ -63,6 +63,9 @@ std::vector<std::string> type_names(TypeSet types);
 /// The point that the box names, if any.
 const ExactPoint* exact_point(const Result& result, const CoverBox& box);
 
+/// Constants with tolerances.
+std::vector<const ResultVariable*> parameters_of(const Result& result);
+
 /// Boxes by the bound of the kernel's dimension; without the undecided boxes that may hold no solution.
 struct KernelTally {
   std::map<int, std::size_t> at_most;

@@ -51,7 +51,7 @@ inline constexpr int kMostExchanges = 16;
 /// A parameter never becomes narrower, so beside this its domain counts as narrow.
 inline constexpr double kParameterSize = 1e150;
 /// Boxes are not bisected below this share of what parameters change (Problem::tolerance_width).
-inline constexpr double kToleranceShare = 1;
+inline constexpr double kToleranceShare = 1, kWidestTolerance = 0.02;
 
 // Bisection (branching.h)
 /// Off-centre, because mechanisms put solutions on planes of symmetry, and a face through a solution doubles its boxes.

@@ -26,21 +26,26 @@ Problem::Problem(const System& system, const certify::Reduction& reduction, std:
   TypicalSizes sizes = typical_sizes(compiled, reduction.system.domain());
   compiled.set_scales(std::move(sizes.variables));
   equation_sizes = std::move(sizes.equations);
-  if (!compiled.parameters().empty()) tolerance_width = kToleranceShare * change_by_parameters(reduction.system.domain());
+  if (!compiled.parameters().empty())
+    tolerance_width = std::min(kToleranceShare * change_by_parameters(reduction.system.domain()), kWidestTolerance);
 }
 
-// The largest change of an equation, in its typical size.
+// The largest change of an equation, beside what all unknowns make of it. That one of them is known as well as the
+// parameters are says nothing of the others.
 double Problem::change_by_parameters(const Box& whole) const {
   const UpwardRounding rounding;
   std::vector<Interval> jacobian(compiled.entries());
   compiled.jacobian(whole, jacobian);
   double largest = 0;
   for (int row = 0; row < compiled.equations(); ++row) {
-    double change = 0;
-    for (int k = compiled.row_begin(row); k < compiled.row_begin(row + 1); ++k)
-      if (std::ranges::binary_search(compiled.parameters(), compiled.column(k)))
-        change += 0.5 * jacobian[k].mag() * whole[compiled.column(k)].width();
-    largest = std::max(largest, change / equation_sizes[row]);
+    double change = 0, size = 0;
+    for (int k = compiled.row_begin(row); k < compiled.row_begin(row + 1); ++k) {
+      const int j = compiled.column(k);
+      const bool varies = std::ranges::binary_search(compiled.parameters(), j);
+      double& sum = varies ? change : size;
+      sum += jacobian[k].mag() * (varies ? 0.5 * whole[j].width() : whole[j].mag());
+    }
+    if (size > 0) largest = std::max(largest, change / size);
   }
   return largest;
 }

@@ -65,6 +65,12 @@ CORANK_EXPRESSION_ACTION(section_title, {
   b.section_where.column -= 1;  // the bracket
 })
 
+CORANK_EXPRESSION_ACTION(percent_token, {
+  const std::string_view number = in.string_view().substr(0, in.string_view().find_first_of(" \t\r\f\v%"));
+  b.finish_tolerance(ModelBuilder::ToleranceForm::percent, normal_decimal(number, place(in, b)));
+})
+CORANK_EXPRESSION_ACTION0(tolerance_end, { b.finish_tolerance(ModelBuilder::ToleranceForm::absolute); })
+CORANK_EXPRESSION_ACTION0(value_range_end, { b.finish_tolerance(ModelBuilder::ToleranceForm::range); })
 CORANK_EXPRESSION_ACTION0(expression_begin, { b.expressions.begin(); })
 CORANK_EXPRESSION_ACTION0(expression_end, { b.values.push_back(b.expressions.end()); })
 CORANK_EXPRESSION_ACTION(number_token, {

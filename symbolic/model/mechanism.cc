@@ -53,6 +53,21 @@ Expression Mechanism::constant(const std::string& name, const Expression& value,
   return Expression::symbol(name);
 }
 
+std::string Mechanism::toleranced_in(const Expression& e) const {
+  for (const Constant& c : constants_) {
+    if (!e.mentions(c.name)) continue;
+    if (c.tolerance) return c.name;
+    if (std::string name = toleranced_in(c.value); !name.empty()) return name;
+  }
+  return {};
+}
+
+Mechanism Mechanism::nominal() const {
+  Mechanism result = *this;
+  for (Constant& c : result.constants_) c.tolerance.reset();
+  return result;
+}
+
 Expression Mechanism::coordinate(const Coordinate& c) {
   declare(c.name, Declared::coordinate, c.where);
   coordinates_.push_back(c);

@@ -168,6 +168,10 @@ class Mechanism {
   const std::vector<Constant>& constants() const { return constants_; }
   /// Names of those with a tolerance.
   std::vector<std::string> toleranced() const;
+  /// The name of a constant with a tolerance on which the expression depends, also through others; empty: none.
+  std::string toleranced_in(const Expression& e) const;
+  /// The same mechanism with the nominal values, exactly.
+  Mechanism nominal() const;
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   const std::vector<Composite>& composites() const { return composites_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }

@@ -20,13 +20,11 @@ struct Action : ExpressionAction<Rule> {};
 #define CORANK_ACTION0(rule, ...) CORANK_ACTION0_OF(Action, ModelBuilder, rule, __VA_ARGS__)
 
 CORANK_ACTION(constant_name, { declare(in, b); })
-CORANK_ACTION(percent_token, {
-  const std::string_view number = in.string_view().substr(0, in.string_view().find_first_of(" \t\r\f\v%"));
-  b.finish_tolerance(ModelBuilder::ToleranceForm::percent, normal_decimal(number, place(in, b)));
-})
-CORANK_ACTION0(tolerance_end, { b.finish_tolerance(ModelBuilder::ToleranceForm::absolute); })
-CORANK_ACTION0(value_range_end, { b.finish_tolerance(ModelBuilder::ToleranceForm::range); })
 CORANK_ACTION0(constant_end, { b.finish_constant(); })
+CORANK_ACTION(stray_percent, {
+  throw ModelError(place(in, b), "this % is neither a percent sign nor the beginning of a comment",
+                   "a number before a percent sign, ± 5%, or a blank before a comment");
+})
 CORANK_ACTION(variables_header, {
   const std::string_view title = in.string_view();
   b.of_limits = false;

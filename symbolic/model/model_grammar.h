@@ -133,12 +133,13 @@ struct tolerance_mark : sor<string<'+', '-'>, string<'\xC2', '\xB1'>> {};
 struct percent_end : seq<star<blank_character>, sor<eolf, one<';'>>> {};
 struct percent_token : seq<decimal, sor<one<'%'>, seq<plus<blank_character>, one<'%'>, at<percent_end>>>> {};
 struct tolerance_end : success {};
-struct tolerance : seq<tolerance_mark, star<blank_character>, sor<percent_token, seq<expression<line_gap>, tolerance_end>>> {
-};
-struct in_word : seq<string<'i', 'n'>, not_at<name_tail>, at<gap, one<'['>>> {};
+struct stray_percent : at<sor<one<'%'>, seq<plus<blank_character>, one<'%'>, percent_end>>> {};
+struct tolerance : seq<tolerance_mark, star<blank_character>, sor<percent_token, seq<expression<line_gap>, tolerance_end>>,
+                       opt<stray_percent>> {};
+struct value_range_word : seq<string<'i', 'n'>, not_at<name_tail>, at<line_gap, one<'['>>> {};
 struct value_range_end : success {};
-struct value_range : seq<in_word, gap, one<'['>, gap, expression<gap>, gap, must<range_comma>, gap, expression<gap>, gap,
-                         must<range_close>, value_range_end> {};
+struct value_range : seq<value_range_word, gap, one<'['>, gap, expression<gap>, gap, must<range_comma>, gap, expression<gap>,
+                         gap, must<range_close>, value_range_end> {};
 struct constant_value : sor<value_range, seq<expression<line_gap>, opt<line_gap, tolerance>>> {};
 struct definition
     : seq<must<constant_name>, line_gap, must<assign>, line_gap, constant_value, constant_end, opt<line_gap, one<';'>>> {};

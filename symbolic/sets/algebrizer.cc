@@ -189,13 +189,15 @@ void Algebrizer::require_exact(const Expression& e, const std::string& what, con
 
 Coordinate Algebrizer::with_fixed_ends(const Coordinate& c) {
   const std::string what = "the range of " + in_quotes(c.name);
-  const bool varies = !toleranced_in(c.lower).empty() || !toleranced_in(c.upper).empty();
-  if (!varies || c.kind == CoordinateKind::angle) return c;
+  const bool lower_varies = !toleranced_in(c.lower).empty(), upper_varies = !toleranced_in(c.upper).empty();
+  if ((!lower_varies && !upper_varies) || c.kind == CoordinateKind::angle) return c;
+  if (is_fixed(c)) require_exact(c.lower, what, c.where);  // a value that is held, no range to search in
   const UpwardRounding rounding;
   const auto known = [&](const Expression& e) -> std::optional<Interval> {
     if (toleranced_in(e).empty()) return expander_.constant(e, what, c.where).exact().enclose();
+    if (e.kind() != Expression::Kind::symbol) return std::nullopt;
     const auto of_name = std::ranges::find_if(parameters_, [&](const Constant* p) { return p->name == e.name(); });
-    if (e.kind() != Expression::Kind::symbol || of_name == parameters_.end()) return std::nullopt;
+    if (of_name == parameters_.end()) return std::nullopt;
     const Tolerance& tolerance = *(*of_name)->tolerance;
     return Interval::hull(expander_.constant(tolerance.lower, what, c.where).exact().enclose(),
                           expander_.constant(tolerance.upper, what, c.where).exact().enclose());
@@ -204,7 +206,10 @@ Coordinate Algebrizer::with_fixed_ends(const Coordinate& c) {
              upper = symbolic::range_of(c.upper.substituted(following_), known);
   if (!lower || !upper || !lower->is_bounded() || !upper->is_bounded())
     throw ModelError(c.where, what + ", " + c.range_text() + ", is not bounded within the tolerances", "bounds in numbers");
-  return with_range(c, Interval::hull(*lower, *upper));
+  Coordinate wide = with_range(c, Interval::hull(*lower, *upper));
+  if (!lower_varies) wide.lower = c.lower;
+  if (!upper_varies) wide.upper = c.upper;
+  return wide;
 }
 
 void Algebrizer::add_constant(const Constant& c) {

@@ -18,6 +18,7 @@
 #include "corank/analyze/paths/tube_builder.h"
 #include "corank/check/tube.h"
 #include "corank/study/model.h"
+#include "corank/tests/analyze/path_samples.h"
 #include "corank/tests/analyze/random_pairs.h"
 #include "corank/tests/seeds.h"
 
@@ -39,48 +40,6 @@ std::vector<NamedValue> values(const std::vector<std::pair<std::string, std::str
 int from_environment(const char* name, int otherwise) {
   const char* text = std::getenv(name);
   return text ? std::atoi(text) : otherwise;
-}
-
-// Follows the lift of each piece by Newton's method on the piece's own equations; false where it leaves the box, meets
-// another sign of a determinant, or what the model asks.
-bool samples_agree(const PathSpace& space, const Tube& tube, int samples) {
-  const auto n = static_cast<Eigen::Index>(space.size());
-  const auto d = static_cast<Eigen::Index>(tube.nodes.front().values.size());
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Eigen::VectorXd x = space.middle(tube.nodes.front().box);
-  const Eigen::Map<const Eigen::VectorXd> sizes(space.sizes().data(), n);
-  const std::vector<int> signs = space.state(x).signs;
-  const int each = samples / static_cast<int>(tube.pieces.size()) + 1;
-  for (std::size_t k = 0; k < tube.pieces.size(); ++k) {
-    const TubeNode &a = tube.nodes[k], &b = tube.nodes[k + 1];
-    const Eigen::Map<const Rows> rows_a(a.rows.data(), d, n), rows_b(b.rows.data(), d, n);
-    const Eigen::Map<const Eigen::VectorXd> c_a(a.values.data(), d), c_b(b.values.data(), d);
-    for (int s = 1; s <= each; ++s) {
-      const double t = static_cast<double>(s) / each;
-      const Eigen::MatrixXd rows = ((1 - t) * rows_a + t * rows_b) * sizes.asDiagonal();
-      const Eigen::VectorXd c = (1 - t) * c_a + t * c_b;
-      double change = 1;
-      for (int step = 0; step < 20 && change > 1e-13; ++step) {
-        Eigen::MatrixXd jacobian(n, n);
-        jacobian << space.jacobian(x), rows;
-        Eigen::VectorXd f(n);
-        f << space.residual(x), rows * x - c;
-        const Eigen::VectorXd move = jacobian.partialPivLu().solve(f);
-        x -= move;
-        change = move.lpNorm<Eigen::Infinity>();
-      }
-      if (!(change < 1e-9)) return false;
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const Interval& side = tube.pieces[k][static_cast<std::size_t>(j)];
-        const double value = sizes(j) * x(j), room = 1e-12 * sizes(j);
-        if (value < side.lo() - room || value > side.hi() + room) return false;
-      }
-      const PathSpace::State state = space.state(x);
-      if (state.signs != signs || !state.inside || !(state.margin > 0)) return false;
-    }
-    if ((x - space.middle(b.box)).lpNorm<Eigen::Infinity>() > 1e-9) return false;
-  }
-  return true;
 }
 
 // A flood over random configurations, joined where straight ways in doubles keep the signs.

@@ -67,6 +67,10 @@ TEST(ToleranceLanguage, RefusesWhatCannotBe) {
   EXPECT_THAT(fault(with_constants("l := in [2, 1]")), HasSubstr("is empty"));
   EXPECT_THAT(fault(with_constants("l := in [2 1]")), HasSubstr("m.cuik:2"));
   EXPECT_THAT(fault(with_constants("l := 1 ±")), HasSubstr("m.cuik:2"));
+  for (const char* percent : {"2*5%", "1/2 %"})
+    EXPECT_THAT(fault(with_constants("l := 1 ± " + std::string(percent))), HasSubstr("neither a percent sign")) << percent;
+  EXPECT_THAT(fault("[CONSTANTS]\nl := 1 ± 0.1\n[SYSTEM VARS]\nx : [l, l]\ny : [0, 9]\n[SYSTEM EQS]\nx = y;\n"),
+              HasSubstr("the range of 'x' depends on 'l'"));
   EXPECT_THAT(fault(with_constants("a := 1 ± 0.1\nl := 2 ± a")), HasSubstr("depends on 'a'"));
   EXPECT_THAT(fault(with_constants("l := 1 ± 0.1", "x = 1/l")), HasSubstr("divides by"));
   EXPECT_THAT(fault("[CONSTANTS]\nl := 1 ± 0.1\n[SYSTEM VARS]\nt ~ [0, l]\n[SYSTEM EQS]\nsin(t) = l/2;\n"),
@@ -75,8 +79,14 @@ TEST(ToleranceLanguage, RefusesWhatCannotBe) {
               HasSubstr("depend on 'l'"));
 }
 
+TEST(ToleranceLanguage, LeavesTheNameInToConstants) {
+  EXPECT_NO_THROW(compiled("[CONSTANTS]\nin := 2\nl := in\n[SYSTEM VARS]\nx : [-9, 9]\n[SYSTEM EQS]\nx = l;\n"));
+}
+
 TEST(ToleranceLanguage, RangesThatFollowAConstantHoldForEveryValue) {
-  const System system = compiled("[CONSTANTS]\nl := 1 ± 0.1\n[SYSTEM VARS]\nx : [-l-1, 2*l]\n[SYSTEM EQS]\nx^2 = l;\n");
+  const System system =
+      compiled("[CONSTANTS]\nl := 1 ± 0.1\n[SYSTEM VARS]\nx : [-l-1, 2*l]\ny : [-l, 1]\n[SYSTEM EQS]\nx^2 = l;\ny = x;\n");
+  EXPECT_EQ(system.variables[1].upper.text(), "1") << "this end does not vary";
   EXPECT_TRUE(system.variables[0].domain.contains(Interval(-2.1, 2.2)));
   EXPECT_LT(system.variables[0].domain.width(), 4.6);
 }
