@@ -228,7 +228,7 @@ void add_solve(CLI::App& program, Action& action) {
   add_solve_options(*sub, *command);
   sub->footer(
       "If the set of a robot is empty, corank solve also searches the robot's ranges for any configuration. It names one\n"
-      "that is proven to exist, or proves that there is none: then the robot cannot be assembled. If the equations\n"
+      "that is proven to exist. Or it proves that there is none, and the robot cannot be assembled. If the equations\n"
       "contradict each other only because their decimals are rounded, it proposes --tolerance.\n\n"
       "Exit status:\n"
       "  0  done and complete\n"

@@ -38,9 +38,9 @@ class CompiledSystem {
   void set_scales(std::vector<double> scales);
 
   int variables() const { return variables_; }
-  /// Those that are parameters (Variable::parameter), ascending.
+  /// Those that are parameters (Variable::is_parameter), ascending.
   const std::vector<int>& parameters() const { return parameters_; }
-  /// How many are none.
+  /// The number of the other variables.
   int unknowns() const { return variables_ - static_cast<int>(parameters_.size()); }
   /// Gives each parameter its whole domain: what is then proven of x holds for every robot, and nothing of x is lost.
   void free_parameters(std::span<Interval> x) const;

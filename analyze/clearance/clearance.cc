@@ -132,9 +132,9 @@ result::Result claim_free(const Clearance& clearance, const solve::Options& sear
   if (system.parameters() > 0 && clearance.nearest.upper && *clearance.nearest.upper > clearance.nearest.lower)
     options.search.sigma = 0.5 * (*clearance.nearest.upper - clearance.nearest.lower);
   result::Result result = study::answer(question, of_any_robot(system), options, control);
+  if (system.parameters() == 0) return result;
   result::describe_system(system, result);
   result.system_text = symbolic::to_cuik(system);
-  if (system.parameters() == 0) return result;
   result.cover.dimension = std::max(0, result.cover.dimension - system.parameters());
   for (CoverBox& box : result.cover.boxes) {  // of some robots only: where some are left, nothing is claimed of them
     box.verdict = Verdict::undecided;

@@ -7,10 +7,10 @@
 //        ⇔  cos(m) c_θ + sin(m) s_θ ≥ cos(h),   for any h ∈ (0, π).
 // A range of one value, α = β: in the equations the angle is the constant α. Its variables have the equations c_θ = cos α
 // and s_θ = sin α in place of the circle, so that boxes hold them. Jacobians were made before and have the angle's column.
-// A constant with a tolerance is a variable of its own, a parameter (core/system.h), behind the coordinates; constants that
-// are defined through it follow it.
 // Likewise of a dependent angle (DependentAngle): in the equations it is sign·b + quarters·π/2, and c_θ and s_θ are that
 // angle's.
+// A constant with a tolerance is a variable of its own, a parameter (core/system.h), behind the coordinates; constants that
+// are defined through it follow it.
 #pragma once
 
 #include "corank/core/system.h"
