@@ -231,7 +231,9 @@ ExitStatus run_map(ClearanceCommand command) {
 
 void add_clearance(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand(
-      "clearance", "Find how far a configuration is from singularities: the largest ball about it that holds none");
+      "clearance",
+      "Find how far a point, such as a position of the outputs, is from singularities: the largest ball about "
+      "it that holds none");
   const auto command = std::make_shared<ClearanceCommand>();
   command->question.add_options(*sub, "Which configurations the ball must not hold");
   sub->add_option(
@@ -240,13 +242,16 @@ void add_clearance(CLI::App& program, Action& action) {
          "15deg is an angle in degrees")
       ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
-  sub->add_option("--in", command->in, "The coordinates in which the ball lies; one radian counts like one unit of length")
+  sub->add_option("--in", command->in,
+                  "The coordinates in which the ball lies, required without --best and --map; one radian counts like one "
+                  "unit of length")
       ->type_name("NAME,...")
       ->allow_extra_args(false);
   sub->add_option(
          "--range,--mode", command->ranges,
          "Search these ranges of coordinates instead of the model's, for example to look at one working mode only, to\n"
-         "set a joint's limit, or to let an angle vary; ±D: by at most D from the value in --at; --mode is the same option")
+         "set a joint's limit, or to let an angle vary; ±D or +-D: by at most D from the value in --at; --mode is the same "
+         "option")
       ->type_name("NAME=[A,B],NAME=±D,...")
       ->allow_extra_args(false);
   sub->add_option(
@@ -287,8 +292,8 @@ void add_clearance(CLI::App& program, Action& action) {
       ->capture_default_str();
   sub->add_option(
          "--proof", command->proof_stem,
-         "Write two files that corank verify checks: NAME-free.h5, which proves that no singularity lies within the lower\n"
-         "bound, and NAME-nearest.h5, with a singularity within the upper bound")
+         "Write two files that corank verify checks: NAME-free.h5 proves that the ball whose radius is the lower bound\n"
+         "holds no singularity; NAME-nearest.h5 holds a singularity in the ball whose radius is the upper bound")
       ->type_name("NAME")
       ->excludes(best)
       ->excludes(map);

@@ -149,7 +149,7 @@ void add_path(CLI::App& program, Action& action) {
         ->allow_extra_args(false)
         ->required();
     sub->add_option(name + "-mode", mode,
-                    "Which solution to take, by its number, if there are several; without it, corank lists them")
+                    "Which solution to take, by its number, if there are several; without it, corank lists them and ends")
         ->check(CLI::PositiveNumber);
   };
   add_end("--from", command->from, command->from_mode);
@@ -162,7 +162,8 @@ void add_path(CLI::App& program, Action& action) {
                   "smaller radius; default: 0")
       ->check(CLI::NonNegativeNumber);
   add_threads(*sub, command->options.threads);
-  sub->add_option("--max-boxes", command->options.max_boxes, "The largest number of boxes in a cover of C-space")
+  sub->add_option("--max-boxes", command->options.max_boxes, "Enclose C-space in at most N boxes when looking for the path")
+      ->type_name("N")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_time_limit(*sub, command->time_limit, "End after SECONDS");
@@ -176,9 +177,10 @@ void add_path(CLI::App& program, Action& action) {
   sub->footer(
       "The path keeps to the ranges, limits and inequalities of the model. With the path corank prints two radii: one for\n"
       "sines and cosines of angles, and one for lengths, which is the first one times the typical size of the robot's\n"
-      "lengths. It is proven that a configuration is no avoided singularity if its sines, cosines and lengths differ by at\n"
-      "most these radii from those of a point of the path. If no path exists, because singularities separate the two\n"
-      "configurations, corank may prove that instead. If it finds neither a path nor such a proof, it says so.\n\n"
+      "lengths. Take a configuration and a point of the path. If each sine and cosine differs by at most the first radius,\n"
+      "and each length by at most the second, it is proven that the configuration is not one of the singularities that the\n"
+      "path avoids. If no path exists, because singularities separate the two configurations, corank may prove that\n"
+      "instead. If it finds neither a path nor such a proof, it says so.\n\n"
       "Exit status: 0 a path, or the proof that there is none; 1 bad input; 2 wrong usage; 3 neither.\n\n"
       "Examples:\n  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=1 --to-mode 1\\\n"
       "      -o path.h5 --report path.html\n  corank verify path.h5");

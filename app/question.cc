@@ -24,17 +24,19 @@ void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set) {
   sub.add_option("--set", set,
                  of_set +
                      ": all (cspace); the forward, inverse or C-space singularities; those that are forward and inverse at "
-                     "once; the boundary of the workspace; the singularities of one type: redundant output (ro), passive "
-                     "motion (rpm) or input (ri), impossible input (ii) or output (io), increased instantaneous mobility "
-                     "(iim); or the cusps or nodes (self-crossings) of the image of the forward singularities among the "
-                     "inputs, or of the inverse ones among the outputs. nodes: forward-nodes or inverse-nodes, whichever "
+                     "once; the boundary of the workspace; the singularities of one type: redundant output (ro), "
+                     "redundant passive motion (rpm), redundant input (ri), impossible input (ii), impossible output (io), "
+                     "increased instantaneous mobility (iim); or the cusps or nodes (self-crossings) of the projection of "
+                     "the forward singularities to the inputs, or of the inverse ones to the outputs. nodes: forward-nodes "
+                     "or inverse-nodes, whichever "
                      "the mechanism can have; an error if it can have both or neither")
       ->check(CLI::IsMember(sets));
   sub.add_option("--kernel", kernel,
-                 "A set of singularities holds the configurations at which a matrix M has a kernel vector xi. right: solve\n"
-                 "M xi = 0; left: solve M^T xi = 0; none: solve the set in parts, each with an equation of its own in\n"
-                 "place of xi. Default: none if corank finds such parts and either the set has dimension 2 or more, or M\n"
-                 "has ten rows or more; otherwise left for ii, io, and where M has more columns than rows, else right")
+                 "A singular configuration is one at which a matrix M, a part of the Jacobian, has a kernel vector xi.\n"
+                 "right: solve M xi = 0; left: solve M^T xi = 0; none: solve the set in parts, each with an equation of\n"
+                 "its own in place of xi. Default: (1) none, if corank finds such parts, and the set has dimension 2 or\n"
+                 "more or M has ten rows or more; (2) otherwise left, for ii, for io, and if M has more columns than\n"
+                 "rows; (3) otherwise right")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(sub);
   add_outputs(sub);
@@ -58,7 +60,7 @@ void QuestionOptions::add_model(CLI::App& sub) {
 
 void QuestionOptions::add_corank(CLI::App& sub) {
   sub.add_option("--corank", corank,
-                 "Keep only configurations at which the kernel of the set's matrix M has dimension C or more;\n"
+                 "Only those of these configurations at which the kernel of the matrix M has dimension C or more;\n"
                  "default: 1, which gives all singularities")
       ->type_name("C")
       ->check(CLI::PositiveNumber);

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <regex>
 #include <sstream>
 
 #include "corank/app/limited_run.h"
@@ -107,8 +108,11 @@ std::string in_paragraphs(const std::string& text) {
 class HelpFormat : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
-    return in_two_columns(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option),
-                          column_width_);
+    // What CLI11 says of a value's range is no part of what is to be typed.
+    static const std::regex range(
+        R"(:(FILE|POSITIVE|NONNEGATIVE|SIZE \[[^\]]*\]|(INT|FLOAT) in \[[^\]]*\]|a number from 0 to 1000))");
+    return in_two_columns(std::regex_replace(make_option_name(option, is_positional) + make_option_opts(option), range, ""),
+                          make_option_desc(option), column_width_);
   }
   std::string make_subcommand(const CLI::App* sub) const override {
     return in_two_columns(sub->get_display_name(true), sub->get_description(), column_width_);
@@ -166,9 +170,10 @@ int run(const std::string& name, const std::vector<std::string>& args) {
       "corank SUBCOMMAND --help explains a subcommand.\n\n"
       "Exit status:\n"
       "  0  done and complete\n"
-      "  1  bad input\n"
+      "  1  bad input; of verify: a claim is false or cannot be checked\n"
       "  2  wrong usage\n"
-      "  3  incomplete: a limit or an interrupt ended the work early; what the output claims is proven\n"
+      "  3  incomplete: a limit or an interrupt ended the work early, or path or clearance did not find\n"
+      "     what was asked for; what the output claims is proven\n"
       "  4  of verify: every claim holds, but it is not proven that no solution is missing\n"
       "  5  of solve: it is proven that the robot cannot be assembled within its ranges\n\n"
       "Example:\n  corank solve models/three_slider.cuik --set forward");

@@ -37,7 +37,8 @@ CLI::Validator seconds() {
 }  // namespace
 
 void add_solve_options(CLI::App& sub, SolveCommand& command) {
-  command.question.add_options(sub);
+  command.question.add_options(
+      sub, "Required for a model with inputs and outputs, and only for such a model. Which configurations");
   sub.add_option(
          "--sigma", command.sigma,
          "Largest edge of a box, in lengths and in the sines and cosines of angles; default: a share of the size of\n"
@@ -68,7 +69,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
       "--area", command.area,
       "For --set boundary with two lengths as outputs: bound the workspace's area in any case, which may take long.\n"
       "Without --area, the area is bounded only if it follows from the boundary. It does not follow, for example, if\n"
-      "the model has inequalities, or if a range ends the workspace although it is not declared as a limit");
+      "the model has inequalities, or if the workspace may reach the end of a range that [LIMITS] does not\n"
+      "declare");
   sub.add_option("-o", command.result_path,
                  "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's format if its name\n"
                  "ends in .sol")

@@ -61,8 +61,8 @@ ExitStatus topology(TopologyCommand command) {
 void add_topology(CLI::App& program, Action& action) {
   CLI::App* sub =
       program.add_subcommand("topology",
-                             "Find the shape of C-space, the set of all configurations of a mechanism, or of the solutions "
-                             "of a model without inputs and outputs: pieces, Euler characteristic, genus");
+                             "Find the pieces, the Euler characteristic and the genus of C-space, the set of all "
+                             "configurations, or of the solutions if the model has no inputs and outputs");
   const auto command = std::make_shared<TopologyCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);

@@ -142,9 +142,10 @@ void add_verify(CLI::App& program, Action& action) {
       ->excludes("--require-proof");
   add_time_limit(*sub, command->time_limit, "End the check after SECONDS");
   sub->footer(
-      "corank verify proves every box again, from the model in the file. It proves regular, isolated and boundary boxes\n"
-      "with intervals of 160 bits, and exact boxes and points in exact arithmetic. Pending boxes, and undecided boxes\n"
-      "without an exact point, claim nothing, so there is nothing to check. Partial boxes are proven for some of the\n"
+      "corank verify proves again, from the model in the file, every box that claims something. It proves regular,\n"
+      "isolated and boundary boxes with intervals of 160 bits. Exact boxes and points have coordinates that are known\n"
+      "exactly, and it proves them in exact arithmetic. Pending boxes were not searched when the search ended early. They\n"
+      "claim nothing, and neither do undecided boxes without an exact point. Partial boxes are proven for some of the\n"
       "equations only. They cannot be checked, so a file that has any is not verified (exit status 1). If the file holds\n"
       "a proof that no solution is missing (corank solve --proof), the proof is replayed.\n\n"
       "It also checks what these commands write:\n"
