@@ -97,7 +97,8 @@ void add_aspects(CLI::App& program, Action& action) {
       "C-space is the set of all configurations. Its pieces without forward and inverse singularities are the aspects. Its\n"
       "pieces without forward singularities are the assembly modes, those without inverse singularities are the working\n"
       "modes. corank proves the number of each, or bounds of it.\n\n"
-      "Exit status: 0 done, 1 bad input or nothing to write, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Exit status: 0 done, 1 bad input, or nothing to put into the file of -o, 2 wrong usage, 3 stopped by a limit or an "
+      "interrupt.\n\n"
       "Examples:\n  corank aspects models/dextar.cuik\n  corank aspects models/dextar.cuik -o aspects.svg\n"
       "  corank aspects models/dextar.cuik -o aspects.h5\n  corank verify aspects.h5");
   sub->callback([command, &action] { action = [command] { return aspects(*command); }; });

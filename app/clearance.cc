@@ -242,9 +242,10 @@ void add_clearance(CLI::App& program, Action& action) {
          "15deg is an angle in degrees")
       ->type_name("NAME=VALUE,...")
       ->allow_extra_args(false);
-  sub->add_option("--in", command->in,
-                  "The coordinates in which the ball lies, required without --best and --map; one radian counts like one "
-                  "unit of length")
+  sub->add_option(
+         "--in", command->in,
+         "The coordinates in which the ball lies, required unless --best or --map is given; one radian counts like one "
+         "unit of length")
       ->type_name("NAME,...")
       ->allow_extra_args(false);
   sub->add_option(

@@ -135,8 +135,10 @@ ExitStatus path(PathCommand command) {
 }  // namespace
 
 void add_path(CLI::App& program, Action& action) {
-  CLI::App* sub =
-      program.add_subcommand("path", "Find a path between two configurations that meets no singularity, and prove it");
+  CLI::App* sub = program.add_subcommand(
+      "path",
+      "Find a path between two configurations that meets no singularity of the kind that --avoid names, and "
+      "prove it");
   const auto command = std::make_shared<PathCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);

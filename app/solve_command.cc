@@ -38,7 +38,7 @@ CLI::Validator seconds() {
 
 void add_solve_options(CLI::App& sub, SolveCommand& command) {
   command.question.add_options(
-      sub, "Required for a model with inputs and outputs, and only for such a model. Which configurations");
+      sub, "A model with inputs and outputs needs --set, other models must not have it. Which configurations");
   sub.add_option(
          "--sigma", command.sigma,
          "Largest edge of a box, in lengths and in the sines and cosines of angles; default: a share of the size of\n"

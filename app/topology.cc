@@ -61,8 +61,8 @@ ExitStatus topology(TopologyCommand command) {
 void add_topology(CLI::App& program, Action& action) {
   CLI::App* sub =
       program.add_subcommand("topology",
-                             "Find the pieces, the Euler characteristic and the genus of C-space, the set of all "
-                             "configurations, or of the solutions if the model has no inputs and outputs");
+                             "Find the pieces, the Euler characteristic and the genus of C-space (the set of all "
+                             "configurations) or, if the model has no inputs and outputs, of its set of solutions");
   const auto command = std::make_shared<TopologyCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
