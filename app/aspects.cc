@@ -89,16 +89,17 @@ void add_aspects(CLI::App& program, Action& action) {
       "which aspects have outputs in common");
   sub->add_flag(
       "--cusps", command->options.cusps,
-      "Find the cusps of the forward and of the inverse singularities. For each cusp find the aspect in which the robot\n"
-      "can move around the cusp, from one configuration to another with the same inputs (cusp of the forward ones) or the\n"
-      "same outputs (of the inverse ones)");
+      "Find the cusps of the forward and of the inverse singularities. For each cusp, find the aspect in which the robot\n"
+      "can move around the cusp from one configuration to another. Both have the same inputs if it is a cusp of the "
+      "forward\n"
+      "singularities, and the same outputs if it is a cusp of the inverse singularities");
   command->json.add(*sub);
   sub->footer(
       "C-space is the set of all configurations. Its pieces without forward and inverse singularities are the aspects. Its\n"
       "pieces without forward singularities are the assembly modes, those without inverse singularities are the working\n"
       "modes. corank proves the number of each, or bounds of it.\n\n"
-      "Exit status: 0 done, 1 bad input, or nothing to put into the file of -o, 2 wrong usage, 3 stopped by a limit or an "
-      "interrupt.\n\n"
+      "Exit status: 0 done; 1 bad input, or there is nothing to write to the file of -o; 2 wrong usage; 3 stopped by a\n"
+      "limit or an interrupt.\n\n"
       "Examples:\n  corank aspects models/dextar.cuik\n  corank aspects models/dextar.cuik -o aspects.svg\n"
       "  corank aspects models/dextar.cuik -o aspects.h5\n  corank verify aspects.h5");
   sub->callback([command, &action] { action = [command] { return aspects(*command); }; });

@@ -51,7 +51,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
       ->type_name("S|inf");
   sub.add_option("--tolerance", command.tolerance,
                  "Let each coefficient that is not an integer vary by REL of its size, independently of the others;\n"
-                 "0: coefficients are exact; default: 1e-6 for a plain system with more equations than variables, else 0")
+                 "0: coefficients are exact; default: 1e-6 for a model without inputs and outputs that has more\n"
+                 "equations than variables, else 0")
       ->type_name("REL")
       ->check(tolerance());
   command.limits.add_options(sub, "the search");
@@ -67,10 +68,10 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
                "Record the search in RESULT.h5, so that corank verify can check that no solution is missing");
   sub.add_flag(
       "--area", command.area,
-      "For --set boundary with two lengths as outputs: bound the workspace's area in any case, which may take long.\n"
-      "Without --area, the area is bounded only if it follows from the boundary. It does not follow, for example, if\n"
-      "the model has inequalities, or if the workspace may reach the end of a range that [LIMITS] does not\n"
-      "declare");
+      "For --set boundary with two lengths as outputs: always compute proven lower and upper bounds of the workspace's\n"
+      "area, which may take long. Without --area, corank computes them only if the area follows from the boundary. It\n"
+      "does not follow, for example, if the model has inequalities, or if the workspace may reach the end of a range\n"
+      "that the model does not declare as a limit (section [LIMITS])");
   sub.add_option("-o", command.result_path,
                  "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's format if its name\n"
                  "ends in .sol")
