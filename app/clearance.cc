@@ -70,7 +70,8 @@ analyze::BallOptions ball_of(const ClearanceCommand& command) {
 study::Question question_of(const ClearanceCommand& command) {
   QuestionOptions options = command.question;
   study::Question question = load(options);
-  if (options.set.empty() && !question.model.is_plain_system()) options.set = "forward";
+  if (options.set.empty() && !question.model.is_plain_system())
+    options.set = options.require.empty() ? "forward" : "requirements";
   question.set = chosen_set(options, question.model);
   return question;
 }

@@ -1,5 +1,6 @@
 // corank map: a number over a plane of two constants or coordinates.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -67,8 +68,20 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
   result.x_name = map.names[0], result.y_name = map.names[1];
   result.x_range = map.region[0], result.y_range = map.region[1];
   using Kind = analyze::MapCellAnswer::Kind;
-  for (const analyze::MapCellAnswer& c : map.cells)
-    result.cells.push_back({c.sides[0], c.sides[1], c.kind == Kind::proven ? c.count : c.at_centre, c.kind == Kind::proven});
+  if (!map.require.empty()) {
+    result.what = fmt::format("{}", fmt::join(map.require, "; "));
+    result.words = {"no solution", "violated by one solution at least", "satisfied by every solution"};
+  }
+  for (const analyze::MapCellAnswer& c : map.cells) {
+    std::optional<int> number = c.kind == Kind::proven ? c.count : c.at_centre;
+    if (!map.require.empty()) {
+      number.reset();
+      if (c.standing == Standing::satisfied) number = 2;
+      if (c.standing == Standing::violated) number = 1;
+      if (c.count == 0) number = 0;
+    }
+    result.cells.push_back({c.sides[0], c.sides[1], number, c.kind == Kind::proven && number.has_value()});
+  }
   for (const analyze::MapBoundaryBox& b : map.boundary) result.boundary.push_back({b.sides[0], b.sides[1], b.proven});
   return result;
 }

@@ -28,7 +28,7 @@ struct PathCommand {
   QuestionOptions question;
   std::vector<std::string> from, to;
   int from_mode = 0, to_mode = 0;
-  std::string avoid = "forward", csv, output, report;
+  std::string avoid, csv, output, report;
   analyze::PathOptions options;
   double time_limit = 0;
   JsonOption json;
@@ -47,7 +47,8 @@ std::string PathCommand::line() const {
   };
   add_end("--from", from, from_mode);
   add_end("--to", to, to_mode);
-  if (avoid != "forward") text += " --avoid " + avoid;
+  for (const std::string& requirement : question.require) text += " --require '" + requirement + "'";
+  if (avoid != (question.require.empty() ? "forward" : "requirements")) text += " --avoid " + avoid;
   if (options.radius > 0) text += fmt::format(" --radius {:g}", options.radius);
   if (!output.empty()) text += " -o " + std::filesystem::path(output).filename().string();
   return text;
@@ -94,6 +95,7 @@ void write_page(const PathCommand& command, const analyze::PathFinder& finder, c
 }
 
 ExitStatus path(PathCommand command) {
+  if (command.avoid.empty()) command.avoid = command.question.require.empty() ? "forward" : "requirements";
   command.json.give_back(command.question.file);
   command.json.check();
   LimitedRun run({.time = command.time_limit});
@@ -103,9 +105,7 @@ ExitStatus path(PathCommand command) {
     throw UsageError(
         fmt::format("{} names no inputs and outputs: a plain system has no singularities to avoid", command.question.file));
   const auto from = named_values(command.from, "--from"), to = named_values(command.to, "--to");
-  command.options.avoid = command.avoid == "forward"   ? analyze::Avoid::forward
-                          : command.avoid == "inverse" ? analyze::Avoid::inverse
-                                                       : analyze::Avoid::both;
+  command.options.avoid = *analyze::avoid_from_string(command.avoid);
   check_output(command.csv);
   check_output(command.output);
   check_output(command.report);
@@ -156,9 +156,12 @@ void add_path(CLI::App& program, Action& action) {
   };
   add_end("--from", command->from, command->from_mode);
   add_end("--to", command->to, command->to_mode);
-  sub->add_option("--avoid", command->avoid, "The singularities that the path avoids")
-      ->check(CLI::IsMember({"forward", "inverse", "both"}))
-      ->capture_default_str();
+  sub->add_option(
+         "--avoid", command->avoid,
+         "The singularities that the path avoids, or requirements: the configurations at which one of them reaches\n"
+         "its limit; default: forward, with --require requirements")
+      ->check(CLI::IsMember({"forward", "inverse", "both", "requirements"}));
+  command->question.add_require(*sub, "Then the path keeps from their limits");
   sub->add_option("--radius", command->options.radius,
                   "Look for a path with this radius of sines and cosines (see below); if none is found, take one with a\n"
                   "smaller radius; default: 0")

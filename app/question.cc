@@ -24,7 +24,8 @@ void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set) {
   sub.add_option("--set", set,
                  of_set +
                      ": all (cspace); the forward, inverse or C-space singularities; those that are forward and inverse at "
-                     "once; the boundary of the workspace; the singularities of one type: redundant output (ro), "
+                     "once; the boundary of the workspace; where a requirement reaches its limit; the singularities of one "
+                     "type: redundant output (ro), "
                      "redundant passive motion (rpm), redundant input (ri), impossible input (ii), impossible output (io), "
                      "increased instantaneous mobility (iim); or the cusps or nodes (self-crossings) of the projection of "
                      "the forward singularities to the inputs, or of the inverse ones to the outputs. nodes: forward-nodes "
@@ -40,6 +41,7 @@ void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set) {
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(sub);
   add_outputs(sub);
+  add_require(sub, "For --set requirements");
   add_definitions(sub);
 }
 
@@ -49,6 +51,15 @@ void QuestionOptions::add_outputs(CLI::App& sub) {
                  "default: the model's outputs")
       ->type_name("NAME[,NAME...]")
       ->delimiter(',');
+}
+
+void QuestionOptions::add_require(CLI::App& sub, const std::string& what_for) {
+  sub.add_option("--require", require,
+                 "What a configuration is to meet beside being one, such as 'amplification(outputs) <= 2' or\n"
+                 "'torque(theta2) <= 3 N m under force(x, y) <= 50 N' (doc/as_built.md); may be repeated. " +
+                     what_for)
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
 }
 
 void QuestionOptions::add_model(CLI::App& sub) {
@@ -87,6 +98,7 @@ study::Question load(const QuestionOptions& options, std::set<std::string>* said
   if (!options.outputs.empty() && options.set != symbolic::definition(symbolic::SingularitySet::boundary).name)
     throw UsageError("--outputs: without effect; expected --set boundary beside it");
   result::put_in(options.outputs, model.mechanism);
+  study::require(options.require, model);
   return {.model = std::move(model.mechanism),
           .kernel = symbolic::kernel_side_from_string(options.kernel),
           .corank = options.corank,

@@ -22,14 +22,18 @@ struct QuestionOptions {
   std::string file, set, kernel, loops;
   std::vector<std::string> definitions;  ///< each "NAME=EXPR"
   std::vector<std::string> outputs;      ///< in place of the model's, for the workspace's boundary
+  std::vector<std::string> require;      ///< requirements, beside the model's own
   int corank = 1;                        ///< of the sets with a kernel
 
-  /// FILE, --loops, --set, --kernel, --corank and -D. `of_set`: what the set is for, before the words that choose it.
+  /// FILE, --loops, --set, --kernel, --corank, --require and -D. `of_set`: what the set is for, before the words that choose
+  /// it.
   void add_options(CLI::App& sub, const std::string& of_set = "Which configurations of a mechanism");
   /// FILE and --loops.
   void add_model(CLI::App& sub);
   void add_corank(CLI::App& sub);
   void add_outputs(CLI::App& sub);
+  /// --require. `what_for`: what the command does with them.
+  void add_require(CLI::App& sub, const std::string& what_for);
   /// -D alone.
   void add_definitions(CLI::App& sub);
 };

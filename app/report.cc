@@ -114,8 +114,8 @@ std::vector<report::SetView> read_all(std::vector<std::string>& paths) {
 ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   if (!command.results.empty())
     refuse_without_effect(sub,
-                          {"--loops", "--sets", "--corank", "-D", "--sigma", "--cspace-sigma", "--threads", "--max-boxes",
-                           "--max-found", "--time-limit", "--memory-limit", "--proof"},
+                          {"--loops", "--sets", "--corank", "--require", "-D", "--sigma", "--cspace-sigma", "--threads",
+                           "--max-boxes", "--max-found", "--time-limit", "--memory-limit", "--proof"},
                           "no --results beside it: these sets are not solved again");
   command.search.check_effect(sub);
   if (command.results.empty()) command.json.give_back(command.question.file);
@@ -132,6 +132,8 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   if (mechanism.is_plain_system())
     throw symbolic::ModelError({mechanism.name(), 0, 0}, "the model names no inputs and outputs",
                                "a mechanism, with [INPUTS] and [OUTPUTS]");
+  if (!mechanism.requirements().empty() && sub.count("--sets") == 0)
+    command.search.sets.emplace_back(symbolic::to_string(symbolic::SingularitySet::requirements));
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
   check_folder(folder);
@@ -189,6 +191,7 @@ void add_report(CLI::App& program, Action& action) {
   command->question.add_model(*sub);
   command->search.add_sets(*sub);
   command->question.add_corank(*sub);
+  command->question.add_require(*sub, "The page shows where one of them reaches its limit");
   command->question.add_definitions(*sub);
   command->search.limits.add_options(*sub, "each search");
   sub->add_flag("--proof", command->search.proof,

@@ -83,6 +83,7 @@ std::string SetSearch::command_line(const std::string& subcommand, const Questio
   if (sigma) text += fmt::format(" --sigma {:g}", *sigma);
   if (cspace_sigma) text += fmt::format(" --cspace-sigma {:g}", *cspace_sigma);
   if (question.corank != 1) text += fmt::format(" --corank {}", question.corank);
+  for (const std::string& requirement : question.require) text += " --require '" + requirement + "'";
   for (const std::string& definition : question.definitions) text += " -D '" + definition + "'";
   return text;
 }

@@ -249,27 +249,60 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::s
   return sheet;
 }
 
+Interval NewtonStep::gradient_about_center(int row, std::span<const Interval> x) const {
+  NewtonBuffers& w = *buffers_;
+  w.slope.resize(system_->entries());
+  system_->slopes(row, x, w.center.data(), w.slope);
+  w.gradient.assign(system_->variables(), Interval());
+  for (int k = system_->row_begin(row); k < system_->row_begin(row + 1); ++k) w.gradient[system_->column(k)] = w.slope[k];
+  return system_->evaluate_at(row, w.center.data());
+}
+
+bool NewtonStep::eliminate_dependents(Interval& value, std::vector<Interval>& gradient) const {
+  const NewtonBuffers& w = *buffers_;
+  for (int a = 0; a < w.p.rank(); ++a) {
+    const double lambda = gradient[w.p.dependent[a]].mid();
+    if (!std::isfinite(lambda)) return false;
+    if (lambda == 0) continue;
+    value -= scale(lambda, w.residual[a]);
+    w.matrix.subtract_row(lambda, a, gradient.data());
+  }
+  return true;
+}
+
 Interval NewtonStep::value_at_zeros(int row, std::span<const Interval> x) const {
   if (!bounded_) return Interval::whole();
   check_part(x);
   NewtonBuffers& w = *buffers_;
-  const Preconditioner& p = w.p;
-  const CompiledSystem& system = *system_;
-  const int r = p.rank(), n = system.variables();
-  w.slope.resize(system.entries());
-  system.slopes(row, x, w.center.data(), w.slope);
-  w.gradient.assign(n, Interval());
-  for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k) w.gradient[system.column(k)] = w.slope[k];
-  Interval value = system.evaluate_at(row, w.center.data());
-  for (int a = 0; a < r; ++a) {
-    const double lambda = w.gradient[p.dependent[a]].mid();
-    if (!std::isfinite(lambda)) return Interval::whole();
-    if (lambda == 0) continue;
-    value -= scale(lambda, w.residual[a]);
-    w.matrix.subtract_row(lambda, a, w.gradient.data());
-  }
-  for (int j = 0; j < n; ++j) value += w.gradient[j] * (x[j] - Interval(w.center[j]));
+  Interval value = gradient_about_center(row, x);
+  if (!eliminate_dependents(value, w.gradient)) return Interval::whole();
+  for (int j = 0; j < system_->variables(); ++j) value += w.gradient[j] * (x[j] - Interval(w.center[j]));
   return value;
+}
+
+AffineForm NewtonStep::form_of(Interval value, std::span<const Interval> x, const std::vector<int>& free) const {
+  NewtonBuffers& w = *buffers_;
+  AffineForm form{Interval::whole(), std::vector<Interval>(free.size())};
+  if (!eliminate_dependents(value, w.gradient)) return form;
+  for (std::size_t k = 0; k < free.size(); ++k) form.slopes[k] = std::exchange(w.gradient[free[k]], Interval());
+  form.constant = value;
+  for (int j = 0; j < system_->variables(); ++j) form.constant += w.gradient[j] * (x[j] - Interval(w.center[j]));
+  return form;
+}
+
+AffineForm NewtonStep::form_at_zeros(int row, std::span<const Interval> x, const std::vector<int>& free) const {
+  if (!bounded_) return {Interval::whole(), std::vector<Interval>(free.size())};
+  check_part(x);
+  const Interval value = gradient_about_center(row, x);
+  return form_of(value, x, free);
+}
+
+AffineForm NewtonStep::form_of_variable(int variable, std::span<const Interval> x, const std::vector<int>& free) const {
+  if (!bounded_) return {Interval::whole(), std::vector<Interval>(free.size())};
+  check_part(x);
+  buffers_->gradient.assign(system_->variables(), Interval());
+  buffers_->gradient[variable] = Interval(1.0);
+  return form_of(Interval(buffers_->center[variable]), x, free);
 }
 
 void NewtonStep::tighten_part(std::span<Interval> x) const {

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "corank/certify/affine_form.h"
 #include "corank/certify/compiled_system.h"
 
 namespace corank::certify {
@@ -81,6 +82,11 @@ class NewtonStep {
   /// Y·S (z − c) ∋ 0 at a zero z, so f_row(z) ∈ f_row(c) − λ·R(c) + (S_row − λ·Y·S)(x − c). Here λ makes the dependent
   /// variables' part vanish nearly; any λ is valid. Where the step has no bounded Y·S: the whole line.
   Interval value_at_zeros(int row, std::span<const Interval> x) const;
+  /// The same as an affine form in the offsets x_f − c_f of the free variables, `free`, from the step's centre: by the same
+  /// rows, f_row(z) = value + Σ_j g_j (z_j − c_j) with some g_j in intervals; what dependent variables add is in its
+  /// constant. `variable`: the form of one of the system's variables. Where the step has no bounded Y·S: the whole line.
+  AffineForm form_at_zeros(int row, std::span<const Interval> x, const std::vector<int>& free) const;
+  AffineForm form_of_variable(int variable, std::span<const Interval> x, const std::vector<int>& free) const;
 
   /// Of a step inside a proven sheet (tighten_sheet): tightens a part x of X in the same way, by the slopes over X, which
   /// hold on every part of it. A tenth of the work of a step, and less sharp. Where the step has no bounded Y·S nothing
@@ -98,6 +104,10 @@ class NewtonStep {
 
  private:
   void check_part(std::span<const Interval> x) const;
+  // Of a function that is value + gradient·(z − c) at z, the same at zeros: with dependent variables' parts nearly 0.
+  bool eliminate_dependents(Interval& value, std::vector<Interval>& gradient) const;
+  Interval gradient_about_center(int row, std::span<const Interval> x) const;
+  AffineForm form_of(Interval value, std::span<const Interval> x, const std::vector<int>& free) const;
 
   const CompiledSystem* system_;
   NewtonWorkspace::Borrowed buffers_;

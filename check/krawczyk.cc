@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "corank/core/dense.h"
 
@@ -229,22 +230,54 @@ bool Krawczyk::center_solves(const Sides& x) const {
   return std::ranges::all_of(equations_, [&](const Row& f) { return f.value(there).is_zero(); });
 }
 
-Enclosure Krawczyk::value_at_zeros(const Row& row, const Sides& x) const {
-  // With R = Y·F and any real λ: R(c) + Y·S (z − c) ∋ 0 at a zero z, so row(z) ∈ row(c) − λ·R(c) + (S_row − λ·Y·S)(x − c).
-  Sides slopes, gradient(x.size());
-  row.slopes(x, center_sides_, slopes);
-  for (std::size_t k = 0; k < slopes.size(); ++k) gradient[row.columns()[k]] = slopes[k];
-  Enclosure value = row.value(center_sides_);
+void Krawczyk::eliminate_dependents(Enclosure& value, Sides& gradient) const {
+  // With R = Y·F and any real λ: R(c) + Y·S (z − c) ∋ 0 at a zero z, so row(z) ∈ row(c) − λ·R(c) + (S_row − λ·Y·S)(z − c).
   for (std::size_t a = 0; a < dependent_.size(); ++a) {
     const double lambda = gradient[dependent_[a]].mid();
     if (lambda == 0) continue;
     value.add_product(-lambda, residual_[a]);
-    for (std::size_t j = 0; j < x.size(); ++j)
+    for (std::size_t j = 0; j < gradient.size(); ++j)
       if (!product_[a][j].is_zero()) gradient[j].add_product(-lambda, product_[a][j]);
   }
+}
+
+Enclosure Krawczyk::value_and_slopes(const Row& row, const Sides& x, Sides& gradient) const {
+  Sides slopes;
+  row.slopes(x, center_sides_, slopes);
+  gradient.assign(x.size(), Enclosure());
+  for (std::size_t k = 0; k < slopes.size(); ++k) gradient[row.columns()[k]] = slopes[k];
+  return row.value(center_sides_);
+}
+
+Enclosure Krawczyk::value_at_zeros(const Row& row, const Sides& x) const {
+  Sides gradient;
+  Enclosure value = value_and_slopes(row, x, gradient);
+  eliminate_dependents(value, gradient);
   for (std::size_t j = 0; j < x.size(); ++j)
     if (!gradient[j].is_zero()) value.add_product(gradient[j], x[j] - center_sides_[j]);
   return value;
+}
+
+Form Krawczyk::form_of(Enclosure value, Sides gradient, const Sides& x, const std::vector<int>& free) const {
+  eliminate_dependents(value, gradient);
+  Form form;
+  for (const int f : free) form.slopes.push_back(std::exchange(gradient[f], Enclosure()));
+  form.constant = value;
+  for (std::size_t j = 0; j < x.size(); ++j)
+    if (!gradient[j].is_zero()) form.constant.add_product(gradient[j], x[j] - center_sides_[j]);
+  return form;
+}
+
+Form Krawczyk::form_at_zeros(const Row& row, const Sides& x, const std::vector<int>& free) const {
+  Sides gradient;
+  Enclosure value = value_and_slopes(row, x, gradient);
+  return form_of(std::move(value), std::move(gradient), x, free);
+}
+
+Form Krawczyk::form_of_variable(int variable, const Sides& x, const std::vector<int>& free) const {
+  Sides gradient(x.size());
+  gradient[variable] = Enclosure(1.0);
+  return form_of(center_sides_[variable], std::move(gradient), x, free);
 }
 
 }  // namespace corank::check

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "corank/check/form.h"
 #include "corank/check/rows.h"
 
 namespace corank::check {
@@ -51,6 +52,9 @@ class Krawczyk {
   bool center_solves(const Sides& x) const;
   /// After image(x0), for x ⊂ x0: encloses the row at the zeros of F in x.
   Enclosure value_at_zeros(const Row& row, const Sides& x) const;
+  /// The same as a form in the offsets of the free variables from the centre; of a row, or of one of the variables.
+  Form form_at_zeros(const Row& row, const Sides& x, const std::vector<int>& free) const;
+  Form form_of_variable(int variable, const Sides& x, const std::vector<int>& free) const;
   /// After image: about |∂(dependent a)/∂x_j|.
   double steepness(std::size_t a, int j) const { return product_[a][j].mag(); }
 
@@ -65,6 +69,11 @@ class Krawczyk {
   bool invert_refined();
   // One step of Newton's method with Y; did it move the centre?
   bool polish(const Sides& x, const std::vector<double>& values);
+  // Of a function value + gradient·(z − c) the same at the zeros z, dependent variables' entries nearly 0.
+  void eliminate_dependents(Enclosure& value, Sides& gradient) const;
+  // row(c); gradient := its slopes about c over x.
+  Enclosure value_and_slopes(const Row& row, const Sides& x, Sides& gradient) const;
+  Form form_of(Enclosure value, Sides gradient, const Sides& x, const std::vector<int>& free) const;
   // Y·M, M the rows' entries in their columns.
   void multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const;
 

@@ -7,6 +7,7 @@
 #include "corank/check/distinct.h"
 #include "corank/check/krawczyk.h"
 #include "corank/check/parallel.h"
+#include "corank/check/requirement.h"
 #include "corank/check/search.h"
 #include "corank/check/sheets.h"
 #include "corank/core/box.h"
@@ -17,22 +18,26 @@ namespace {
 constexpr int kMostSteps = 12;  // of Newton's, until two solutions over one value are told apart
 constexpr std::size_t kMostOverlaps = 100;
 // Parts of a search: of a cell by itself; of what a group of cells, each counted so often, leaves to one of them.
+constexpr int kPartsOfStanding = 256;  // of a sheet, until a requirement is known to be met or violated
 constexpr std::size_t kFewParts = 20, kPartsOfGroup = 20, kMostPartsOfGroup = 40'000, kMostPartsAlone = 3000;
 
 class MapCheck {
  public:
-  MapCheck(const System& system, const std::vector<int>& parameters, int copies, const MapClaims& claims,
-           const Options& options, MapReport& report)
+  MapCheck(const System& system, const std::vector<int>& parameters, int copies,
+           const std::vector<Requirement>& requirements, const MapClaims& claims, const Options& options, MapReport& report)
       : system_(system),
         parameters_(parameters),
         copies_(copies),
+        requirements_(requirements),
         claims_(claims),
         options_(options),
         problem_(system, claims.reduction, StopFlag(options.ended)),
         report_(report) {
     report_.cells.resize(claims.cells.size());
     for (int k = 0; k < problem_.size(); ++k)
-      if (std::ranges::find(parameters, problem_.kept()[k]) == parameters.end()) unknowns_.push_back(k);
+      (std::ranges::find(parameters, problem_.kept()[k]) == parameters.end() ? unknowns_ : places_).push_back(k);
+    const std::vector<double> lengths = domain_lengths(system);
+    for (const int v : problem_.kept()) lengths_.push_back(lengths[v]);
   }
 
   void run() {
@@ -63,6 +68,7 @@ class MapCheck {
     if (cell.sides.size() != parameters_.size()) return "it does not have one side for each parameter";
     for (std::size_t k = 0; k < parameters_.size(); ++k)
       if (!system_.variables[parameters_[k]].domain.contains(cell.sides[k])) return "it is not within the map";
+    if (cell.standing != Standing::open && requirements_.empty()) return "it speaks of requirements, and there are none";
     if (cell.count < 0 || static_cast<std::int64_t>(cell.sheets.size()) != std::int64_t{cell.count} * copies_)
       return "it does not have as many sheets as it claims solutions";
     for (const MapSheet& sheet : cell.sheets) {
@@ -101,11 +107,53 @@ class MapCheck {
       for (std::size_t other = 0; other < k; ++other)
         if (!differ(cell, cell.sheets[other], cell.sheets[k]))
           return "sheets " + std::to_string(other + 1) + " and " + std::to_string(k + 1) + " may be the same";
+    if (!has_standing(cell)) return std::string("it is not shown that the requirements are ") + to_string(cell.standing);
     const bool complete = has_no_more(cell, {problem_.domain()}, kFewParts);
     const std::scoped_lock lock(mutex_);
     report_.sheets += cell.sheets.size();
-    report_.cells[c] = {true, complete};
+    report_.cells[c] = {true, complete, true};
     return {};
+  }
+
+  bool has_standing(const MapCellClaim& cell) const {
+    // Is it so of all of the sheet's zeros? No further part is looked at once one contradicts.
+    const auto shown = [&](const Requirement& requirement, const MapSheet& sheet, int most_parts) {
+      bool contradicted = false;
+      const bool ended =
+          shown_in_parts(problem_.kept(sheet.box), places_, lengths_, most_parts, problem_.stop(), [&](Sides& x) {
+            const Standing found = standing_over(requirement, x);
+            contradicted = contradicted || (found != Standing::open && found != cell.standing);
+            return contradicted || found == cell.standing;
+          });
+      return ended && !contradicted;
+    };
+    if (cell.standing == Standing::open) return true;
+    if (cell.standing == Standing::satisfied)
+      return std::ranges::all_of(requirements_, [&](const Requirement& r) {
+        return std::ranges::all_of(cell.sheets, [&](const MapSheet& sheet) { return shown(r, sheet, kPartsOfStanding); });
+      });
+    for (int most = 1; most <= kPartsOfStanding; most *= 4)
+      for (const Requirement& r : requirements_)
+        for (const MapSheet& sheet : cell.sheets)
+          if (shown(r, sheet, most)) return true;
+    return false;
+  }
+
+  // Of the sheet's zeros over these values of the parameters; x holds them, and is tightened.
+  Standing standing_over(const Requirement& requirement, Sides& x) const {
+    Krawczyk newton(problem_.equations(), problem_.size());
+    if (!newton.set(unknowns_, x, Krawczyk::Center::polished) || !newton.shrink(x, newton.image(x))) return Standing::open;
+    if (!newton.shrink(x, newton.image(x))) return Standing::open;
+    Sides offsets;
+    for (const int p : places_) offsets.push_back(x[p] - Enclosure(newton.center()[p]));
+    return standing(
+        requirement,
+        [&](int variable) {
+          if (const int place = problem_.place(variable); place >= 0) return newton.form_of_variable(place, x, places_);
+          const auto value = std::ranges::find(problem_.values(), variable, &Problem::Value::variable);
+          return newton.form_at_zeros(value->row, x, places_);
+        },
+        offsets);
   }
 
   // What the boxes have over these values of the parameters.
@@ -223,10 +271,12 @@ class MapCheck {
   const System& system_;
   const std::vector<int>& parameters_;
   const int copies_;
+  const std::vector<Requirement>& requirements_;
   const MapClaims& claims_;
   const Options& options_;
   const Problem problem_;
-  std::vector<int> unknowns_;  // the others that were kept, by their places among those
+  std::vector<int> unknowns_, places_;  // of the others that were kept, and of the parameters, among all that were
+  std::vector<double> lengths_;         // of the kept
   ThreadArena arena_{options_.threads};
   std::mutex mutex_;
   MapReport& report_;
@@ -243,12 +293,13 @@ std::size_t MapReport::completed() const { return count(cells, &MapCellReport::c
 bool MapReport::verified() const { return failures.empty() && !interrupted && at_least() == cells.size(); }
 bool MapReport::complete() const { return verified() && completed() == cells.size(); }
 
-MapReport check_map(const System& system, const std::vector<int>& parameters, int copies, const MapClaims& claims,
-                    const Options& options) {
+MapReport check_map(const System& system, const std::vector<int>& parameters, int copies,
+                    const std::vector<Requirement>& requirements, const MapClaims& claims, const Options& options) {
   MapReport report;
   report.stage = "the reduction";
   try {
-    report.interrupted = !finishes([&] { MapCheck(system, parameters, copies, claims, options, report).run(); });
+    report.interrupted =
+        !finishes([&] { MapCheck(system, parameters, copies, requirements, claims, options, report).run(); });
   } catch (const std::invalid_argument& error) {
     report.failures.push_back(report.stage + ": " + error.what());
   }

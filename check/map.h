@@ -9,6 +9,7 @@
 //   complete   an exhaustive search of P × domain: each part of it has no solution, or lies in a sheet's region, or in a
 //              box about it and the sheet's image in which the Jacobian is regular, so that there is at most one zero for
 //              each p, the sheet's (check/krawczyk.h).
+//   standing   a requirement is met by all sheets, or violated by one, over parts of the cell (check/requirement.h).
 // The reduction keeps the parameters, so it is a bijection for each of their values (certify/reduction.h).
 // What is shown holds for the values in the cell that are in the parameters' ranges.
 #pragma once
@@ -18,12 +19,14 @@
 
 #include "corank/check/checker.h"
 #include "corank/core/map_claims.h"
+#include "corank/core/requirement.h"
 
 namespace corank::check {
 
 struct MapCellReport {
   bool at_least = false;  ///< there are at least as many as claimed for every value
   bool complete = false;  ///< and no more
+  bool standing = false;  ///< what is claimed of requirements holds for these solutions
 };
 
 struct MapReport : Findings {
@@ -40,7 +43,7 @@ struct MapReport : Findings {
 };
 
 /// `parameters`: two variables of the system. Never throws for what a claim says.
-MapReport check_map(const System& system, const std::vector<int>& parameters, int copies, const MapClaims& claims,
-                    const Options& options = {});
+MapReport check_map(const System& system, const std::vector<int>& parameters, int copies,
+                    const std::vector<Requirement>& requirements, const MapClaims& claims, const Options& options = {});
 
 }  // namespace corank::check

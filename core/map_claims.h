@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "corank/core/cover.h"
+#include "corank/core/requirement.h"
 
 namespace corank {
 
@@ -18,6 +19,9 @@ struct MapCellClaim {
   Box sides;      ///< of the two parameters
   int count = 0;  ///< of what is asked for: ParametricSystem::copies solutions of the system are one of these
   std::vector<MapSheet> sheets;
+  /// Of the requirements: satisfied where for every value in the cell all solutions meet all of them, violated where for
+  /// every value one solution does not meet one.
+  Standing standing = Standing::open;
 };
 
 struct MapClaims {

@@ -50,8 +50,6 @@ py::tuple aspects(const Question& question, int threads, int halvings, int round
               }));
 }
 
-constexpr std::string_view kAvoids[] = {"forward", "inverse", "both"};  // in the order of analyze::Avoid
-
 using Values = std::vector<std::pair<std::string, Expression>>;
 using Ranges = std::vector<std::tuple<std::string, Expression, Expression>>;
 
@@ -154,9 +152,9 @@ py::tuple path(const Question& question, const Values& from, int from_mode, cons
                const py::object& progress) {
   refuse_plain_system(question, "singularities");
   analyze::PathOptions options{.radius = radius, .threads = threads};
-  const auto which = std::find(std::begin(kAvoids), std::end(kAvoids), avoid);
-  if (which == std::end(kAvoids)) throw std::invalid_argument("avoid: expected \"forward\", \"inverse\" or \"both\"");
-  options.avoid = static_cast<analyze::Avoid>(which - std::begin(kAvoids));
+  const std::optional<analyze::Avoid> which = analyze::avoid_from_string(avoid);
+  if (!which) throw std::invalid_argument("avoid: expected \"forward\", \"inverse\", \"both\" or \"requirements\"");
+  options.avoid = *which;
   if (max_boxes > 0) options.max_boxes = max_boxes;
   const auto work = [question, start = values_of(from), from_mode, end = values_of(to), to_mode,
                      options](solve::Control& control) {

@@ -27,6 +27,7 @@ struct Model {
   std::optional<Origin> origin;  // nothing: built, or changed, by the functions of Mechanism
   study::Model value;
   std::vector<result::ConstantOverride> constants;  // that were put in
+  std::vector<std::string> requirements{};          // likewise, beside the model's own
 
   const symbolic::Mechanism& mechanism() const { return value.mechanism; }
   symbolic::Mechanism& changed() {
@@ -41,6 +42,12 @@ struct Model {
 Model make_model(Origin origin, std::vector<result::ConstantOverride> constants) {
   study::Model value = study::parse_model(origin.model, constants, origin.loops);
   return {std::move(origin), std::move(value), std::move(constants)};
+}
+
+Model with_requirements(Model model, const std::vector<std::string>& texts) {
+  study::require(texts, model.value);
+  model.requirements.insert(model.requirements.end(), texts.begin(), texts.end());
+  return model;
 }
 
 using Text = std::tuple<std::string, std::string, std::string>;  // its text, file, folder
@@ -86,7 +93,7 @@ Model with_constants(const Model& model, const Constants& constants) {
     std::erase_if(all, [&](const auto& former) { return former.name == o.name; });
     all.push_back(o);
   }
-  if (model.origin) return make_model(*model.origin, all);
+  if (model.origin) return with_requirements(make_model(*model.origin, all), model.requirements);
   Model other = model;
   other.constants = std::move(all);
   result::put_in(other.constants, other.value.mechanism);
@@ -98,7 +105,9 @@ py::tuple state(const Model& model) {
   if (!model.origin) origin.model = {symbolic::to_model(model.mechanism()), model.mechanism().name() + ".cuik"};
   std::optional<Text> loops;
   if (origin.loops) loops = tuple_of(*origin.loops);
-  return py::make_tuple(tuple_of(origin.model), loops, pairs(model.constants));
+  // A text that was written anew has them.
+  return py::make_tuple(tuple_of(origin.model), loops, pairs(model.constants),
+                        model.origin ? model.requirements : std::vector<std::string>());
 }
 
 const char* word(symbolic::CoordinateKind kind) { return kind == symbolic::CoordinateKind::angle ? "angle" : "length"; }
@@ -232,9 +241,12 @@ void bind_model(py::module_& module) {
   type.def("validate", [](const Model& m) { m.mechanism().validate(); });
   type.def("text", [](const Model& m) { return symbolic::to_model(m.mechanism()); });
   type.def("with_constants", &with_constants);
+  type.def("with_requirements", &with_requirements);
+  type.def_property_readonly("requirements", [](const Model& m) { return m.mechanism().requirement_texts(); });
   type.def("copy", [](const Model& m) { return m; });
   type.def(py::pickle(&state, [](const py::tuple& s) {
-    return parse(s[0].cast<Text>(), s[1].cast<std::optional<Text>>(), s[2].cast<Constants>());
+    return with_requirements(parse(s[0].cast<Text>(), s[1].cast<std::optional<Text>>(), s[2].cast<Constants>()),
+                             s[3].cast<std::vector<std::string>>());
   }));
   py::class_<study::Question>(module, "Question")
       .def(py::init(&question_of), py::arg("model"), py::arg("set") = py::none(), py::arg("kernel") = py::none(),

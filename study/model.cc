@@ -157,4 +157,14 @@ Model read_model(const std::filesystem::path& path, const std::vector<result::Co
   return parse_model(read_text(path), constants, companion);
 }
 
+void require(const std::vector<std::string>& texts, Model& model) {
+  if (texts.empty()) return;
+  std::string section = "\n[REQUIREMENTS]\n";
+  for (const std::string& text : texts) {
+    model.mechanism.require(text);
+    section += text + ";\n";
+  }
+  model.mechanism.set_source_text(model.mechanism.source_text() + section);
+}
+
 }  // namespace corank::study

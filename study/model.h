@@ -35,6 +35,9 @@ ModelText read_text(const std::filesystem::path& path);
 Model read_model(const std::filesystem::path& path, const std::vector<result::ConstantOverride>& constants = {},
                  const std::optional<std::filesystem::path>& loops = {});
 
+/// Adds requirements (symbolic/model/requirement_text.h), also to the model's text, which results keep.
+void require(const std::vector<std::string>& texts, Model& model);
+
 /// "planar, mobility 1 …": what the parts make, in one line.
 std::string describe(const kinematics::Assembly& assembly);
 

@@ -23,13 +23,30 @@ std::string rounded(double x, bool up) {
   return fmt::format("{:.6g}", shown);
 }
 
+namespace {
+
+std::string what_of(const study::Question& q) {
+  if (!q.set) return "solution";
+  return symbolic::definition(q.set).of_requirements ? "limit of a requirement" : "singularity";
+}
+
+std::string required_lines(const study::Question& q) {
+  std::string text;
+  if (!symbolic::definition(q.set).of_requirements) return text;
+  for (const std::string& r : q.model.requirement_texts()) text += fmt::format("required: {}\n", r);
+  return text;
+}
+
+}  // namespace
+
 std::string to_table(const Clearance& c) {
   std::vector<std::string> at;
   for (const NamedValue& v : c.ball.center) at.push_back(fmt::format("{} = {}", v.name, v.value.text()));
   std::string text = fmt::format("{}, {}: ball in {} about {}\n", c.ball.question.model.name(), c.ball.set_name(),
                                  fmt::join(c.ball.names(), ", "), fmt::join(at, ", "));
   const Nearest& n = c.nearest;
-  const std::string what = c.ball.question.set ? "singularity" : "solution";
+  const std::string what = what_of(c.ball.question);
+  text += required_lines(c.ball.question);
   if (const auto toleranced = c.ball.question.model.toleranced(); !toleranced.empty())
     text += fmt::format("for every robot within the tolerance{} of {}\n", toleranced.size() == 1 ? "" : "s",
                         fmt::join(toleranced, ", "));
@@ -104,7 +121,8 @@ std::string to_table(const Best& b) {
     region.push_back(fmt::format("{} in [{:.6g}, {:.6g}]", b.names[k], b.region[k].lo(), b.region[k].hi()));
   std::string text = fmt::format("{}, {}: the largest ball in {} with its centre in {}\n", b.ball.question.model.name(),
                                  b.ball.set_name(), fmt::join(b.ball.names(), ", "), fmt::join(region, ", "));
-  const std::string what = b.ball.question.set ? "singularity" : "solution";
+  const std::string what = what_of(b.ball.question);
+  text += required_lines(b.ball.question);
   if (b.empty) {
     text += fmt::format("it is proven that there is no {} in the ranges\n", what);
   } else if (b.unassembled) {

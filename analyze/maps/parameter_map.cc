@@ -12,6 +12,7 @@
 #include "corank/analyze/aspects/aspects.h"
 #include "corank/analyze/sets/fold_system.h"
 #include "corank/analyze/topology/topology.h"
+#include "corank/certify/requirement.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
@@ -66,6 +67,8 @@ struct ParameterMapper::Parts {
     certify::Reduction reduction;
     std::unique_ptr<const solve::Problem> problem;
     int copies = 1;
+    std::vector<Requirement> requirements;
+    std::vector<int> kept_as, value_row;  // of each variable of the whole system one of the two, the other −1
     std::optional<solve::Prepared> folds;
   };
 
@@ -88,16 +91,18 @@ struct ParameterMapper::Parts {
   void find_folds(std::vector<Box> roots, MapTile& tile, solve::Control& control) const;
   std::optional<int> answer_at(const Box& sides, solve::Control& control) const;
   std::vector<MapSheet> sheets_of(const solve::ParameterCell& cell, const std::vector<std::size_t>& solutions) const;
+  std::optional<Standing> standing_of(const solve::ParameterCell& cell, const std::vector<std::size_t>& solutions) const;
 };
 
 void ParameterMapper::Parts::make_family() {
   const symbolic::Mechanism& model = question.question.model;
   const symbolic::SourceLocation place{model.name(), 0, 0};
   const study::Question& q = question.question;
-  const auto [system, parameters, copies] =
+  auto [system, parameters, copies, requirements] =
       symbolic::family_system(model, {q.set, q.kernel, q.corank, question.over, question.fixed});
   Family& f = family.emplace();
   f.copies = copies;
+  f.requirements = std::move(requirements);
   f.reduction = solve::reduce(system, solve::Eliminate::exact, {}, parameters);
   for (const int p : parameters) {
     const auto kept = std::ranges::find(f.reduction.kept, p);
@@ -113,6 +118,11 @@ void ParameterMapper::Parts::make_family() {
                          " unknowns: there is no number of solutions to count",
                      "a set of isolated solutions, such as the configurations where all inputs are parameters or fixed");
   f.problem = std::make_unique<solve::Problem>(system, f.reduction, [] { return false; });
+  f.kept_as.assign(system.size(), -1);
+  f.value_row = f.kept_as;
+  for (std::size_t k = 0; k < f.reduction.kept.size(); ++k) f.kept_as[f.reduction.kept[k]] = static_cast<int>(k);
+  for (std::size_t k = 0; k < f.reduction.definitions.size(); ++k)
+    f.value_row[f.reduction.definitions[k].variable] = f.problem->compiled.value_row(static_cast<int>(k));
   if (options.boundary && f.reduction.consistent) make_folds();
 }
 
@@ -190,10 +200,11 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
     finished = search.refine(cell, kFinestOpenShare, kMostOfLast, control);
     solutions = search.solutions(cell);
   }
-  if (solutions) {
+  const std::optional<Standing> standing = solutions ? standing_of(cell, *solutions) : std::nullopt;
+  if (solutions && (last || standing != Standing::open)) {
     const auto count = static_cast<int>(solutions->size());
     CORANK_CHECK(count % family->copies == 0);
-    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, count / family->copies});
+    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, count / family->copies, {}, standing});
     if (options.certificate) tile.cells.back().sheets = sheets_of(cell, *solutions);
     return;
   }
@@ -232,6 +243,38 @@ std::vector<MapSheet> ParameterMapper::Parts::sheets_of(const solve::ParameterCe
   std::vector<MapSheet> sheets;
   for (const std::size_t k : solutions) sheets.push_back({lifted(cell.sheets[k].image), lifted(cell.sheets[k].region)});
   return sheets;
+}
+
+std::optional<Standing> ParameterMapper::Parts::standing_of(const solve::ParameterCell& cell,
+                                                            const std::vector<std::size_t>& solutions) const {
+  const Family& f = *family;
+  if (f.requirements.empty() || solutions.empty()) return std::nullopt;
+  const certify::CompiledSystem& system = f.problem->compiled;
+  certify::NewtonWorkspace workspace;
+  Standing all = Standing::satisfied;
+  for (const std::size_t k : solutions) {
+    Box x = cell.sheets[k].image;
+    const auto step = [&] {
+      std::vector<double> middle;
+      for (const Interval& side : x) middle.push_back(side.mid());
+      return certify::NewtonStep(system, certify::midpoint_preconditioner(system, middle, cell.sheets[k].dependent), x,
+                                 workspace);
+    };
+    step();
+    const certify::NewtonStep at = step();
+    Box offsets;
+    for (const int p : f.parameters) offsets.push_back(x[p] - Interval(at.center()[p]));
+    const auto form = [&](int variable) {
+      return f.kept_as[variable] >= 0 ? at.form_of_variable(f.kept_as[variable], x, f.parameters)
+                                      : at.form_at_zeros(f.value_row[variable], x, f.parameters);
+    };
+    for (const Requirement& r : f.requirements) {
+      const Standing standing = certify::standing(r, form, offsets);
+      if (standing == Standing::violated) return standing;
+      if (standing == Standing::open) all = standing;
+    }
+  }
+  return all;
 }
 
 void ParameterMapper::Parts::find_folds(std::vector<Box> roots, MapTile& tile, solve::Control& control) const {
@@ -295,6 +338,7 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
   for (const symbolic::Parameter& over : p.question.over) map.names.push_back(over.name);
   map.region = p.region;
   for (const symbolic::FixedCoordinate& f : p.question.fixed) map.fixed.emplace_back(f.name, f.value.text());
+  if (p.family) map.require = p.question.question.model.requirement_texts();
   map.resolution = p.options.resolution;
   std::vector<bool> there(ParameterMapper::tiles(), false);
   map.boundary_known = p.family.has_value();
@@ -320,7 +364,8 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
     map.claims.emplace().reduction = p.family->reduction.steps;
     for (MapCellAnswer& c : map.cells)
       if (c.kind == MapCellAnswer::Kind::proven)
-        map.claims->cells.push_back({c.sides, c.count.value(), std::exchange(c.sheets, {})});
+        map.claims->cells.push_back(
+            {c.sides, c.count.value(), std::exchange(c.sheets, {}), c.standing.value_or(Standing::open)});
   }
   return map;
 }
@@ -341,6 +386,14 @@ double ParameterMap::proven_share() const {
   for (const MapCellAnswer& c : cells)
     if (c.kind == MapCellAnswer::Kind::proven) share += share_of(c);
   return share;
+}
+
+double ParameterMap::share_where(Standing standing) const {
+  double known = 0;
+  for (const MapCellAnswer& c : cells)
+    if (standing == Standing::open ? c.count == 0 || (c.standing && c.standing != Standing::open) : c.standing == standing)
+      known += share_of(c);
+  return standing == Standing::open ? std::max(0.0, 1 - known) : known;
 }
 
 ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOptions& options, solve::Control& control) {

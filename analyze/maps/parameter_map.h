@@ -51,6 +51,9 @@ struct MapCellAnswer {
   Kind kind = Kind::pending;
   std::optional<int> count{};      ///< proven
   std::optional<int> at_centre{};  ///< proven for the cell's centre alone
+  /// Of a proven cell with solutions, where requirements are asked for. satisfied: for every value in the cell each solution
+  /// meets them all; violated: for every value one does not.
+  std::optional<Standing> standing{};
   std::vector<MapSheet> sheets{};  ///< of a proven cell, where a certificate is asked for
 };
 const char* to_string(MapCellAnswer::Kind kind);
@@ -76,6 +79,7 @@ struct ParameterMap {
   std::vector<std::string> names;  ///< of the parameters
   Box region;
   std::vector<std::pair<std::string, std::string>> fixed;
+  std::vector<std::string> require;  ///< of MapAnswer::solutions: the model's requirements
   int resolution = 0;
   std::vector<MapCellAnswer> cells;      ///< sorted by their lower ends; they share sides, and cover the region
   std::vector<MapBoundaryBox> boundary;  ///< likewise sorted
@@ -88,6 +92,8 @@ struct ParameterMap {
   /// The share of the region's area that is proven to have each count; of centre answers, the share of the cells.
   std::map<int, double> shares() const;
   double proven_share() const;
+  /// The share where requirements are satisfied, or violated; open: all the rest but what has no solutions.
+  double share_where(Standing standing) const;
   double share_of(const MapCellAnswer& cell) const;
 };
 
@@ -119,10 +125,10 @@ result::MapFile to_file(const MapQuestion& question, const ParameterMap& map);
 
 /// A few lines for a terminal.
 std::string to_table(const ParameterMap& map);
-/// x_lo, x_hi, y_lo, y_hi, kind, count, at_centre in each row, after a heading.
+/// x_lo, x_hi, y_lo, y_hi, kind, count, at_centre in each row, after a heading; with requirements also standing.
 std::string to_csv(const ParameterMap& map);
 /// {"model", "set", "count", "over": {name: [lo, hi]}, "fixed", "resolution", "cells": [[x_lo, x_hi, y_lo, y_hi, kind,
-/// count, at_centre]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]], "shares" …}; doc/maps.md.
+/// count, at_centre, standing]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]], "shares" …}; doc/maps.md.
 std::string to_json(const ParameterMap& map);
 /// For transport: a tile without its sheets as text, and back. Throws std::invalid_argument.
 std::string to_json(const MapTile& tile);

@@ -26,6 +26,7 @@ Json row(const MapCellAnswer& c) {
   json.push_back(to_string(c.kind));
   json.push_back(or_null(c.count));
   json.push_back(or_null(c.at_centre));
+  if (c.standing) json.push_back(to_string(*c.standing));
   return json;
 }
 
@@ -48,6 +49,13 @@ Box sides_of(const Json& row) {
 }
 
 std::optional<int> count_of(const Json& json) { return json.is_null() ? std::nullopt : std::optional(json.get<int>()); }
+
+std::optional<Standing> standing_of(const Json& cell) {
+  if (cell.size() <= 7) return std::nullopt;
+  const auto standing = standing_from_string(cell.at(7).get<std::string>());
+  if (!standing) throw std::invalid_argument("no standing of a cell: " + cell.at(7).get<std::string>());
+  return standing;
+}
 
 std::string percent(double share) {
   return share > 0 && share < 0.001 ? "below 0.1 %" : fmt::format("{:.1f} %", 100 * share);
@@ -90,6 +98,16 @@ std::string to_table(const ParameterMap& map) {
   if (!sampled)
     text += fmt::format("  {:<22}{} of the plane, where the number may change\n", "undecided",
                         percent(std::max(0.0, 1 - proven)));
+
+  for (const std::string& r : map.require) text += fmt::format("  {:<22}{}\n", "required", r);
+  if (!map.require.empty()) {
+    const auto line = [&](const char* what, Standing standing, const char* words) {
+      text += fmt::format("  {:<22}{} of the plane{}\n", what, percent(map.share_where(standing)), words);
+    };
+    line("satisfied", Standing::satisfied, ", proven for every solution there");
+    line("violated", Standing::violated, ", proven for a solution at every place there");
+    line("open", Standing::open, " without what has no solutions");
+  }
   text += fmt::format("  {:<22}{} ({} proven, {} undecided{}{}), {} boxes processed\n", "cells", map.cells.size(),
                       cells_of(map, MapCellAnswer::Kind::proven), cells_of(map, MapCellAnswer::Kind::undecided),
                       sampled ? fmt::format(", {} centres", cells_of(map, MapCellAnswer::Kind::centre)) : "",
@@ -104,11 +122,14 @@ std::string to_table(const ParameterMap& map) {
 }
 
 std::string to_csv(const ParameterMap& map) {
-  std::string text = fmt::format("{0}_lo,{0}_hi,{1}_lo,{1}_hi,kind,count,at_centre\n", map.names[0], map.names[1]);
+  const bool with_standing = !map.require.empty();
+  std::string text = fmt::format("{0}_lo,{0}_hi,{1}_lo,{1}_hi,kind,count,at_centre{2}\n", map.names[0], map.names[1],
+                                 with_standing ? ",standing" : "");
   const auto known = [](const std::optional<int>& n) { return n ? std::to_string(*n) : ""; };
   for (const MapCellAnswer& c : map.cells)
-    text += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{},{},{}\n", c.sides[0].lo(), c.sides[0].hi(), c.sides[1].lo(),
-                        c.sides[1].hi(), to_string(c.kind), known(c.count), known(c.at_centre));
+    text += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{},{},{}{}\n", c.sides[0].lo(), c.sides[0].hi(), c.sides[1].lo(),
+                        c.sides[1].hi(), to_string(c.kind), known(c.count), known(c.at_centre),
+                        with_standing ? std::string(",") + (c.standing ? to_string(*c.standing) : "") : "");
   return text;
 }
 
@@ -117,6 +138,11 @@ std::string to_json(const ParameterMap& map) {
   for (std::size_t k = 0; k < 2; ++k) json["over"][map.names[k]] = {map.region[k].lo(), map.region[k].hi()};
   json["fixed"] = Json::object();
   for (const auto& [name, value] : map.fixed) json["fixed"][name] = value;
+  if (!map.require.empty()) {
+    json["require"] = map.require;
+    for (const Standing s : {Standing::satisfied, Standing::violated, Standing::open})
+      json["standings"][to_string(s)] = map.share_where(s);
+  }
   json["resolution"] = map.resolution;
   json["complete"] = map.complete;
   json["shares"] = Json::object();
@@ -146,7 +172,8 @@ MapTile tile_from_json(const std::string& text) {
     tile.number = json.at("number").get<int>();
     if (tile.number < 0 || tile.number >= ParameterMapper::tiles()) throw std::invalid_argument("no such tile");
     for (const Json& c : json.at("cells"))
-      tile.cells.push_back({sides_of(c), kind_from(c.at(4).get<std::string>()), count_of(c.at(5)), count_of(c.at(6))});
+      tile.cells.push_back(
+          {sides_of(c), kind_from(c.at(4).get<std::string>()), count_of(c.at(5)), count_of(c.at(6)), standing_of(c)});
     for (const Json& b : json.at("boundary")) tile.boundary.push_back({sides_of(b), b.at(4).get<bool>()});
     tile.boundary_known = json.at("boundary_known").get<bool>();
     tile.processed = json.at("processed").get<std::uint64_t>();

@@ -10,6 +10,7 @@
 
 #include "corank/analyze/paths/path_graph.h"
 #include "corank/analyze/paths/path_space.h"
+#include "corank/analyze/paths/standing.h"
 #include "corank/analyze/paths/tube_builder.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/rounding.h"
@@ -172,8 +173,8 @@ void PathFinder::Search::find_by_graph(const Ends& ends, Path& path, solve::Cont
     path.resolution = graph.sigma();
     if (!all_ && space_.sign_functions() > 0 && graph.apart(ends.from, ends.to, ends.signs)) {
       path.status = Path::Status::separated;
-      path.reason =
-          fmt::format("no chain of boxes of a cover with edges of {:g} joins the ends without a singularity", graph.sigma());
+      path.reason = fmt::format("no chain of boxes of a cover with edges of {:g} joins the ends without {}", graph.sigma(),
+                                options_.avoid == Avoid::requirements ? "a limit of a requirement" : "a singularity");
       return;
     }
     PathGraph::Blocked blocked;
@@ -326,7 +327,12 @@ std::vector<PathFinder::Sign> PathFinder::signs(const Box& box) const {
   return result;
 }
 
-Path PathFinder::find(const Box& from, const Box& to, solve::Control& control) { return search_->find(from, to, control); }
+Path PathFinder::find(const Box& from, const Box& to, solve::Control& control) {
+  Path path = search_->find(from, to, control);
+  if (options().avoid == Avoid::requirements && question().model.toleranced().empty())
+    path.standing = standing_in(question().model, study::equations(question()), from);
+  return path;
+}
 
 Box PathFinder::end(const std::vector<NamedValue>& values, int mode, const std::string& option,
                     solve::Control& control) const {

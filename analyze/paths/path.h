@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "corank/analyze/clearance/clearance.h"
+#include "corank/core/requirement.h"
 #include "corank/core/tube.h"
 
 namespace corank::result {
@@ -16,8 +17,11 @@ struct PathFile;
 
 namespace corank::analyze {
 
-enum class Avoid { forward, inverse, both };
+enum class Avoid { forward, inverse, both, requirements };  ///< requirements: the configurations where one is at its limit
 const char* to_string(Avoid avoid);
+std::optional<Avoid> avoid_from_string(const std::string& text);
+/// "forward and inverse singularities", "limits of requirements".
+std::string in_words(Avoid avoid);
 
 struct PathOptions {
   Avoid avoid = Avoid::forward;
@@ -36,6 +40,8 @@ struct Path {
   double length = 0;         ///< of the nodes' polyline: angles in radians, lengths in units of PathSpace::sizes; no claim
   double resolution = 0;     ///< the finest cover's edges; 0: none was made
   Box from, to;              ///< the ends, enclosed in the system's variables
+  /// Where limits of requirements are avoided: do `from` and with it the whole path meet the requirements?
+  std::optional<Standing> standing{};
   double seconds = 0;
 };
 

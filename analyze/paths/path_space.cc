@@ -35,8 +35,13 @@ PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factor
   system_ = study::system(question_, equations_);
   // A factor is one robot's.
   const bool with_factors = dimension() <= most_with_factors && system_.parameters() == 0;
-  if (avoid != Avoid::inverse) add_matrix(symbolic::SingularitySet::forward, with_factors);
-  if (avoid != Avoid::forward) add_matrix(symbolic::SingularitySet::inverse, with_factors);
+  using symbolic::SingularitySet;
+  if (avoid == Avoid::requirements) {
+    add_matrix(SingularitySet::requirements, with_factors);
+  } else {
+    if (avoid != Avoid::inverse) add_matrix(SingularitySet::forward, with_factors);
+    if (avoid != Avoid::forward) add_matrix(SingularitySet::inverse, with_factors);
+  }
   std::vector<Polynomial> values;
   for (const PolynomialMatrix& m : matrices_) {
     first_entry_.push_back(static_cast<int>(values.size()));
@@ -90,13 +95,12 @@ PathSpace::Point PathSpace::middle(const Box& box) const {
 }
 
 void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
-  const auto blocks = symbolic::velocity_blocks(question_.model, set);
-  if (!blocks)
+  const std::optional<PolynomialMatrix> found = symbolic::locked_polynomials(question_.model, set);
+  if (!found)
     throw symbolic::ModelError({question_.model.name(), 0, 0}, "its velocity equation has sines of lengths",
                                "angles in sines and cosines");
-  const Avoid of = set == symbolic::SingularitySet::forward ? Avoid::forward : Avoid::inverse;
-  const PolynomialMatrix& m =
-      blocks->matrices[static_cast<std::size_t>(of == Avoid::forward ? Block::forward : Block::inverse)];
+  const PolynomialMatrix& m = *found;
+  const Avoid of = avoid_from_string(symbolic::to_string(set)).value();
   std::vector<int>& filled = filled_rows_.emplace_back();
   for (int i = 0; i < m.rows; ++i) {
     bool zero = true;

@@ -31,9 +31,21 @@ std::optional<double> length_size(const System& system, const Tube& tube) {
   return std::nullopt;
 }
 
-const char* to_string(Avoid avoid) {
-  constexpr std::array kNames{"forward", "inverse", "both"};
-  return kNames.at(static_cast<std::size_t>(avoid));
+namespace {
+constexpr std::array kAvoids{"forward", "inverse", "both", "requirements"};
+}
+
+const char* to_string(Avoid avoid) { return kAvoids.at(static_cast<std::size_t>(avoid)); }
+
+std::optional<Avoid> avoid_from_string(const std::string& text) {
+  for (std::size_t k = 0; k < kAvoids.size(); ++k)
+    if (text == kAvoids[k]) return static_cast<Avoid>(k);
+  return std::nullopt;
+}
+
+std::string in_words(Avoid avoid) {
+  if (avoid == Avoid::requirements) return "limits of requirements";
+  return std::string(avoid == Avoid::both ? "forward and inverse" : to_string(avoid)) + " singularities";
 }
 
 const char* to_string(Path::Status status) {
@@ -42,9 +54,7 @@ const char* to_string(Path::Status status) {
 }
 
 std::string to_text(const PathFinder& finder, const Path& path) {
-  std::string text =
-      fmt::format("{}, {} singularities avoided\n", finder.question().model.name(),
-                  finder.options().avoid == Avoid::both ? "forward and inverse" : to_string(finder.options().avoid));
+  std::string text = fmt::format("{}, {} avoided\n", finder.question().model.name(), in_words(finder.options().avoid));
   const auto line = [&](const std::string& name, const std::string& value) {
     text += fmt::format("  {:<10}  {}\n", name, value);
   };
@@ -54,6 +64,13 @@ std::string to_text(const PathFinder& finder, const Path& path) {
                  : path.status == Path::Status::separated ? "separated: it is proven that no such path exists"
                                                           : "unknown");
   if (!path.reason.empty()) line("", path.reason);
+  if (path.standing) {
+    for (const std::string& r : finder.question().model.requirement_texts()) line("required", r);
+    const char* const where = path.tube ? "on the whole path" : "at the start";
+    line("", *path.standing == Standing::satisfied  ? fmt::format("met {}, proven", where)
+             : *path.standing == Standing::violated ? fmt::format("not met {}, proven", where)
+                                                    : "whether it is met is not known");
+  }
   if (path.tube) {
     line("radius", radius_text(finder.system(), *path.tube));
     line("length", fmt::format("{:.4g}", path.length));
@@ -80,6 +97,10 @@ std::string to_json(const PathFinder& finder, const Path& path) {
             {"reason", or_null(path.reason)},
             {"resolution", path.resolution > 0 ? Json(path.resolution) : Json()},
             {"seconds", path.seconds}};
+  if (path.standing) {
+    json["require"] = finder.question().model.requirement_texts();
+    json["standing"] = to_string(*path.standing);
+  }
   if (path.tube) {
     std::vector<std::string> names;
     for (const std::vector<double>& row : node_values(finder.system(), *path.tube, names)) {

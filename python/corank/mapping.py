@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, List, Mapping, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _corank
 from .analyses import Analysis, RangeLike, _ranges
@@ -33,6 +33,8 @@ class ParameterMap(Analysis, Certified):
             cells.
         proven_share: the share of the plane's area where the number is known for every value.
         complete: was the whole plane examined?
+        require: what every solution is to meet; empty if nothing is required.
+        standings: with requirements, the shares of the area where they are "satisfied", "violated" and "open".
         boundary_known: do the boxes of boundary() hold all values in undecided cells at which two solutions meet?
     """
 
@@ -49,17 +51,23 @@ class ParameterMap(Analysis, Certified):
         self.shares = {int(n): share for n, share in self.data["shares"].items()}
         self.proven_share: float = self.data["proven_share"]
         self.complete: bool = self.data["complete"]
+        self.require: List[str] = self.data.get("require", [])
+        self.standings: Dict[str, float] = self.data.get("standings", {})
         self.boundary_known: bool = self.data["boundary_known"]
 
     def to_pandas(self) -> "pandas.DataFrame":
         """Returns a data frame with a row for each cell: its lower and upper ends, its kind and the numbers `count` and
         `at_centre`, or NA. Kinds: "proven": `count` holds for every value in the cell; "undecided"; "centre": `at_centre` is
-        proven for the centre only; "pending": not examined."""
+        proven for the centre only; "pending": not examined. With requirements there is the column `standing`, too:
+        "satisfied", "violated", "open" or NA."""
         pandas = require("pandas")
 
         x, y = self.names
         columns = [f"{x}_lo", f"{x}_hi", f"{y}_lo", f"{y}_hi", "kind", "count", "at_centre"]
-        frame = pandas.DataFrame(self.data["cells"], columns=columns)
+        if self.require:
+            columns.append("standing")
+        cells = [cell + [None] * (len(columns) - len(cell)) for cell in self.data["cells"]]
+        frame = pandas.DataFrame(cells, columns=columns)
         return frame.astype({"count": "Int64", "at_centre": "Int64"})
 
     def boundary(self) -> "numpy.ndarray":
@@ -74,7 +82,7 @@ class ParameterMap(Analysis, Certified):
         numpy = require("numpy")
         numbers = numpy.ma.masked_all((self.resolution, self.resolution), dtype=int)
         (x0, x1), (y0, y1) = self.region
-        for xl, xu, yl, yu, kind, count, at_centre in self.data["cells"]:
+        for xl, xu, yl, yu, kind, count, at_centre in (cell[:7] for cell in self.data["cells"]):
             number = at_centre if kind == "centre" else count
             if number is None:
                 continue
@@ -83,22 +91,35 @@ class ParameterMap(Analysis, Certified):
             numbers[rows[0] : rows[1], columns[0] : columns[1]] = number
         return numbers
 
-    def at(self, x: float, y: float) -> Optional[int]:
-        """Returns the number that is proven for the cell with these values; None if no number is."""
-        for xl, xu, yl, yu, _, count, _ in self.data["cells"]:
-            if xl <= x <= xu and yl <= y <= yu and count is not None:
+    def at(self, x: float, y: float) -> Union[int, bool, None]:
+        """Returns the number that is proven for the cell with these values; None if no number is.
+
+        With requirements: True if every solution there meets them; False if one does not, or if there is no solution; None
+        if neither is proven for the cell."""
+        for xl, xu, yl, yu, _, count, _, *standing in self.data["cells"]:
+            if not (xl <= x <= xu and yl <= y <= yu) or count is None:
+                continue
+            if not self.require:
                 return count
+            if standing != ["open"]:
+                return standing == ["satisfied"]
         return None
+
+    def _classes(self) -> List[Any]:
+        """Returns the cells with 0 (no solution), 1 (violated) or 2 (satisfied) for the count, None if that is open."""
+        number = {"satisfied": 2, "violated": 1}
+        return [[*c[:5], 0 if c[5] == 0 else number.get(c[-1]), None] for c in self.data["cells"]]
 
     def plot(self, ax: Optional["Axes"] = None) -> "Axes":
         """Draws regions in a colour for each number, numbers that are known only at centres as dots, and the curve on which
-        solutions meet in a dark colour."""
+        solutions meet in a dark colour. With requirements: regions where they are satisfied, violated and open."""
         plt = require("matplotlib.pyplot")
         from matplotlib.collections import PatchCollection
         from matplotlib.patches import Patch, Rectangle
 
         axes: Any = ax if ax is not None else plt.subplots()[1]
-        cells = self.data["cells"]
+        cells = self._classes() if self.require else self.data["cells"]
+        words = ["no solution", "violated by one", "satisfied by all"] if self.require else None
         numbers = sorted({c[5] if c[5] is not None else c[6] for c in cells} - {None})
         shades = plt.get_cmap("YlGnBu")
         colors = {n: shades(0.12 + 0.63 * k / max(1, len(numbers) - 1)) for k, n in enumerate(numbers)}
@@ -113,11 +134,12 @@ class ParameterMap(Analysis, Certified):
         legend = []
         for n in reversed(numbers):
             add([c for c in cells if c[5] == n], colors[n])
-            legend.append(Patch(facecolor=colors[n], label=str(n)))
+            legend.append(Patch(facecolor=colors[n], label=words[n] if words else str(n)))
         open_cells = [c for c in cells if c[5] is None]
         if open_cells:
             add(open_cells, "0.85")
-            legend.append(Patch(facecolor="0.85", label="not known for whole cells; dots: at the centre"))
+            label = "open" if words else "not known for whole cells; dots: at the centre"
+            legend.append(Patch(facecolor="0.85", label=label))
         for n in numbers:
             add([c for c in open_cells if c[6] == n], colors[n], 0.5)
         proven = [b for b in self.data["boundary"] if b[4]]
@@ -139,6 +161,7 @@ def map(
     *,
     set: Optional[str] = None,
     fixed: Optional[Mapping[str, ExpressionLike]] = None,
+    require: Union[str, Sequence[str], None] = None,
     count: str = "solutions",
     resolution: int = 64,
     boundary: bool = True,
@@ -155,6 +178,8 @@ def map(
         set: the set whose solutions are counted; they have to be isolated once the parameters have values. None: the
             configurations, or a plain system's solutions.
         fixed: coordinates that keep one value.
+        require: what every solution is to meet, beside the mechanism's own requirements, as text or texts:
+            "amplification(outputs) <= 2" (doc/as_built.md). at() then tells whether it does.
         count: "solutions"; or "components", "aspects", "assembly-modes" or "working-modes" of all configurations, which are
             proven only at the centres of cells.
         resolution: the number of the narrowest cells along each side: a power of two from 8 to 1024.
@@ -170,6 +195,8 @@ def map(
     """
     if certificate and (count != "solutions" or client is not None):
         raise ValueError('certificate: expected count="solutions" and no client')
+    if require is not None:
+        self = self.with_requirements(*([require] if isinstance(require, str) else require))
     core = _corank.ParameterMap(
         ask(self._core, set),
         _ranges(over),

@@ -175,6 +175,20 @@ class Mechanism:
         pairs = [(name, constant_text(value)) for name, value in {**(constants or {}), **more}.items()]
         return Mechanism._of(self._core.with_constants(pairs))
 
+    def with_requirements(self, *texts: str) -> "Mechanism":
+        """Returns the mechanism with requirements beside its own: m.with_requirements("amplification(outputs) <= 2")
+        (doc/as_built.md). The set "requirements" is where one of them reaches its limit.
+
+        Raises:
+            ModelError: if a text is no requirement.
+        """
+        return Mechanism._of(self._core.with_requirements(list(texts)))
+
+    @property
+    def requirements(self) -> List[str]:
+        """What is required of a configuration, as texts."""
+        return self._core.requirements
+
     def copy(self) -> "Mechanism":
         """Returns a copy."""
         return Mechanism._of(self._core.copy())

@@ -158,7 +158,8 @@ def path(
         start, end: values of coordinates, as many as the mobility; corank solves for the others. Further values choose among
             the solutions.
         start_mode, end_mode: the number of the solution, if there are several; without it, a ValueError lists them.
-        avoid: "forward", "inverse" or "both". The path also keeps to ranges, limits and inequalities.
+        avoid: "forward", "inverse" or "both" singularities; or "requirements", the configurations at which one of the
+            mechanism's requirements reaches its limit (with_requirements()). The path also keeps to ranges, limits and inequalities.
         radius: look for a path with this radius of sines and cosines; if none is found, take one with a smaller radius.
         max_boxes: the largest number of boxes in a cover of C-space; 0: corank's default.
         time_limit: in seconds; 0: no limit.

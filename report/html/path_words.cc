@@ -15,9 +15,10 @@ using analyze::Avoid;
 using analyze::Path;
 using symbolic::html_name;
 
-/// "forward and inverse" singularities, "forward or inverse" singularity.
-std::string avoided(Avoid avoid, const char* both = "forward and inverse") {
-  return avoid == Avoid::both ? both : to_string(avoid);
+/// "forward or inverse singularity".
+std::string one_avoided(Avoid avoid) {
+  if (avoid == Avoid::requirements) return "limit of a requirement";
+  return std::string(avoid == Avoid::both ? "forward or inverse" : to_string(avoid)) + " singularity";
 }
 
 std::string number(double value, int digits = 4) { return with_minus(fmt::format("{:.{}g}", value, digits)); }
@@ -42,6 +43,7 @@ std::string bounds_of(const symbolic::Mechanism& mechanism, const System& system
 
 std::string kept_rank(Avoid avoid) {
   const std::string y = "<i>L<sub>y</sub></i>", z = "<i>L<sub>z</sub></i>";
+  if (avoid == Avoid::requirements) return "<i>R</i>";
   return avoid == Avoid::forward ? y : avoid == Avoid::inverse ? z : y + " and " + z;
 }
 
@@ -62,8 +64,7 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
   words.proven.push_back("The path is unbroken from the start to the end: " +
                          (n == 1 ? test : fmt::format("it has {} pieces that meet, and in each {}", grouped(n), test)) +
                          ".");
-  words.proven.push_back(fmt::format("The path meets no {} singularity: {} full rank on all of it.",
-                                     avoided(view.avoid, "forward or inverse"),
+  words.proven.push_back(fmt::format("The path meets no {}: {} full rank on all of it.", one_avoided(view.avoid),
                                      kept_rank(view.avoid) + (view.avoid == Avoid::both ? " have" : " has")));
   if (const std::string bounds = bounds_of(mechanism, view.system); !bounds.empty())
     words.proven.push_back(fmt::format("It keeps to {}.", bounds));
@@ -84,18 +85,16 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
 
 PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view) {
   PathWords words;
-  words.kicker = fmt::format("A path without {} singularities", avoided(view.avoid));
+  words.kicker = fmt::format("A path without {}", in_words(view.avoid));
   const std::string& reason = symbolic::html_text(view.path.reason);
   switch (view.path.status) {
     case Path::Status::path: say_of_a_path(mechanism, view, words); break;
     case Path::Status::separated:
       words.finding = "It is proven that there is no such path.";
-      words.proven.push_back(
-          fmt::format("The two configurations lie in different pieces of C-space without {} singularities: {}.",
-                      avoided(view.avoid), reason));
-      words.proven.push_back(
-          fmt::format("Every motion from one to the other passes {} {} singularity, or leaves the ranges.",
-                      view.avoid == Avoid::inverse ? "an" : "a", avoided(view.avoid, "forward or inverse")));
+      words.proven.push_back(fmt::format("The two configurations lie in different pieces of C-space without {}: {}.",
+                                         in_words(view.avoid), reason));
+      words.proven.push_back(fmt::format("Every motion from one to the other passes {} {}, or leaves the ranges.",
+                                         view.avoid == Avoid::inverse ? "an" : "a", one_avoided(view.avoid)));
       break;
     case Path::Status::unknown:
       words.finding = "corank found neither a path nor a proof that there is no path.";

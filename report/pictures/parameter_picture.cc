@@ -66,10 +66,14 @@ class Drawing {
     for (const auto& c : in_.cells)
       if (c.number) colors_[*c.number] = {};
     std::size_t k = 0;
-    for (auto& [number, color] : colors_)
-      color = colors_.size() == 1 ? kShades[1]
-                                  : between(kShades, static_cast<double>(k++) / static_cast<double>(colors_.size() - 1));
+    const std::size_t all = in_.words.empty() ? colors_.size() : in_.words.size();
+    for (auto& [number, color] : colors_) {
+      if (!in_.words.empty()) k = number;
+      color = all == 1 ? kShades[1] : between(kShades, static_cast<double>(k++) / static_cast<double>(all - 1));
+    }
   }
+
+  std::string word(int number) const { return in_.words.empty() ? std::to_string(number) : in_.words.at(number); }
 
   void add_regions() {
     CellUnion unknown(kGrid, kGrid);
@@ -84,7 +88,7 @@ class Drawing {
     }
     add_shape("not known for whole cells", kUnknownColor, unknown);
     for (const auto& [number, cells] : regions) {
-      add_shape(std::to_string(number), colors_.at(number), cells);
+      add_shape(word(number), colors_.at(number), cells);
       proven_.push_back(number);
     }
   }
@@ -135,10 +139,10 @@ class Drawing {
       y += kRow;
     };
     // From the largest down, as they lie in most pictures.
-    for (auto k = proven_.rbegin(); k != proven_.rend(); ++k) add(colors_.at(*k), std::to_string(*k), 1);
+    for (auto k = proven_.rbegin(); k != proven_.rend(); ++k) add(colors_.at(*k), word(*k), 1);
     for (auto k = dots_.rbegin(); k != dots_.rend(); ++k)
       add(colors_.at(k->first), fmt::format("{}, at the cell’s centre", k->first), kDot);
-    if (has_unknown_) add(kUnknownColor, "not known for the whole cell", 1);
+    if (has_unknown_) add(kUnknownColor, in_.words.empty() ? "not known for the whole cell" : "open", 1);
     if (has_curve_) add(kCurve, "solutions meet", 1);
     if (has_others_) add(kMayMeet, "solutions may meet", 1);
     return right;

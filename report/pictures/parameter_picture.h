@@ -21,7 +21,8 @@ struct ParameterPicture {
     Interval x, y;
     bool proven = false;
   };
-  std::string title, what;  ///< the model; what is counted, "forward-cusps"
+  std::string title, what;           ///< the model; what is counted, "forward-cusps"
+  std::vector<std::string> words{};  ///< what the numbers 0, 1 … stand for; empty: themselves
   std::string x_name, y_name;
   Interval x_range, y_range;
   std::vector<Cell> cells;

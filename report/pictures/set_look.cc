@@ -13,7 +13,7 @@ constexpr Paint kVermilion{{0.80, 0.11, 0.14}, "#d1480a", "#ff8552"};
 constexpr Paint kBlue{{0.09, 0.33, 0.75}, "#0a6fb8", "#58b4f5"};
 constexpr Paint kPurple{{0.52, 0.18, 0.68}, "#7a3fb0", "#c39af0"};
 
-constexpr std::array<SetLook, 17> kLooks{{
+constexpr std::array<SetLook, 18> kLooks{{
     {.set = SingularitySet::cspace,
      .title = "C-space",
      .member = "C-space",
@@ -118,6 +118,14 @@ constexpr std::array<SetLook, 17> kLooks{{
      .of_corank = "the rank of the velocity equation drops by at least {}",
      .none = "There are none in the search domain: the velocity equation has full rank there.",
      .drawn = {kPurple, 10}},
+    {.set = SingularitySet::requirements,
+     .title = "Limits of requirements",
+     .member = "Configuration at a limit",
+     .label = "limits of requirements",
+     .meaning = "a requirement reaches its limit: on a path without such a configuration, what is met once is met all along",
+     .of_corank = "requirements reach their limits in at least {} independent ways",
+     .none = "There are none in the search domain: each requirement is met, or not met, along every path.",
+     .drawn = {{{0.85, 0.55, 0.0}, "#a86f00", "#ffc04d"}, 15, 4.2}},
     {.set = SingularitySet::forward_cusps,
      .title = "Cusps of the forward locus",
      .member = "Cusp of the forward locus",

@@ -34,12 +34,14 @@ Cover cover_of(const MapClaims& claims, const std::vector<int>& parameters) {
 
 struct CellRow {
   int count = 0, sheets = 0;  ///< `sheets` of those that follow one another
+  int standing = 0;           ///< Standing
   Box sides;
 };
 
 constexpr auto kCellFields = [](auto& field, auto& cell) {
   field("count", cell.count, 0, kMostOfOne);
   field("sheets", cell.sheets, 0);
+  field("standing", cell.standing, 0, static_cast<int>(Standing::open));
   field.box("", cell.sides, 2);
 };
 
@@ -85,7 +87,8 @@ void read_family(const Hdf5Reader& file, symbolic::FamilyQuestion& family) {
 void read_cells(const Hdf5Reader& file, Cover cover, MapClaims& claims) {
   std::size_t next = 0;
   for (CellRow& row : read_list<CellRow>(file, "/cells/", kCellFields)) {
-    MapCellClaim& cell = claims.cells.emplace_back(MapCellClaim{std::move(row.sides), row.count, {}});
+    MapCellClaim& cell =
+        claims.cells.emplace_back(MapCellClaim{std::move(row.sides), row.count, {}, static_cast<Standing>(row.standing)});
     if (static_cast<std::size_t>(row.sheets) > cover.boxes.size() - next)
       file.fail("its cells name sheets that do not exist");
     for (const std::size_t end = next + row.sheets; next < end; ++next) {
@@ -101,15 +104,15 @@ void read_cells(const Hdf5Reader& file, Cover cover, MapClaims& claims) {
 }  // namespace
 
 void write_map(const std::filesystem::path& path, const MapFile& data, const Ended& in_haste) {
-  const auto [system, parameters, copies] = family_of(data);
+  const symbolic::FamilySystem family = family_of(data);
   std::vector<CellRow> cells;
   for (const MapCellClaim& cell : data.claims.cells)
-    cells.push_back({cell.count, static_cast<int>(cell.sheets.size()), cell.sides});
-  write_certificate(path, kMapKind, data, in_haste, [&, &system = system, &parameters = parameters](Hdf5Writer& file) {
+    cells.push_back({cell.count, static_cast<int>(cell.sheets.size()), static_cast<int>(cell.standing), cell.sides});
+  write_certificate(path, kMapKind, data, in_haste, [&](Hdf5Writer& file) {
     write_family(file, data.family);
-    file.texts("/variables", names(system));
+    file.texts("/variables", names(family.system));
     write_list(file, "/cells/", cells, kCellFields);
-    write_cover(file, "/sheets", cover_of(data.claims, parameters), system.variables.size());
+    write_cover(file, "/sheets", cover_of(data.claims, family.parameters), family.system.variables.size());
   });
 }
 
@@ -123,22 +126,33 @@ MapFile read_map(const std::filesystem::path& path) {
 }
 
 check::MapReport verify(const MapFile& file, const check::Options& options) {
-  const auto [system, parameters, copies] = family_of(file);
-  return check::check_map(system, parameters, copies, file.claims, options);
+  const symbolic::FamilySystem family = family_of(file);
+  return check::check_map(family.system, family.parameters, family.copies, family.requirements, file.claims, options);
 }
 
 namespace {
 
-// Of the map's area, by the number that is confirmed for them.
-std::map<int, double> confirmed_shares(const check::MapReport& report, const MapFile& file,
-                                       bool check::MapCellReport::*what) {
+// Of the map's area: what is confirmed of its cells.
+struct ConfirmedShares {
+  std::map<int, double> at_least, exactly;  // by the number of solutions
+  double satisfied = 0, violated = 0;       // the requirements
+};
+
+ConfirmedShares confirmed_shares(const check::MapReport& report, const MapFile& file) {
   double all = 1;
-  const auto [system, parameters, copies] = family_of(file);
-  for (const int p : parameters) all *= system.variables[p].domain.width();
-  std::map<int, double> shares;
-  for (std::size_t c = 0; c < report.cells.size(); ++c)
-    if (const MapCellClaim& cell = file.claims.cells[c]; report.cells[c].*what)
-      shares[cell.count] += cell.sides[0].width() * cell.sides[1].width() / all;
+  const symbolic::FamilySystem family = family_of(file);
+  for (const int p : family.parameters) all *= family.system.variables[p].domain.width();
+  ConfirmedShares shares;
+  for (std::size_t c = 0; c < report.cells.size(); ++c) {
+    const MapCellClaim& cell = file.claims.cells[c];
+    const check::MapCellReport& found = report.cells[c];
+    const double share = cell.sides[0].width() * cell.sides[1].width() / all;
+    if (found.at_least) shares.at_least[cell.count] += share;
+    if (found.complete) shares.exactly[cell.count] += share;
+    if (found.standing && cell.standing == Standing::violated) shares.violated += share;
+    if (found.standing && found.complete && cell.count > 0 && cell.standing == Standing::satisfied)
+      shares.satisfied += share;
+  }
   return shares;
 }
 
@@ -150,12 +164,15 @@ std::string to_table(const check::MapReport& report, const MapFile& file) {
                                  printable_line(file.family.over.at(0).name), printable_line(file.family.over.at(1).name));
   text += fmt::format("  cells  claimed: {}; confirmed: at least as many in {}, at most as many in {}; {} sheets\n", all,
                       report.at_least(), report.completed(), report.sheets);
-  const auto exact = confirmed_shares(report, file, &check::MapCellReport::complete);
-  for (const auto& [count, share] : confirmed_shares(report, file, &check::MapCellReport::at_least)) {
-    const auto found = exact.find(count);
+  ConfirmedShares shares = confirmed_shares(report, file);
+  for (const auto& [count, share] : shares.at_least)
     text += fmt::format("  {:<5}  on {:.1f} % of the plane; at most as many: on {:.1f} %\n", count, 100 * share,
-                        100 * (found == exact.end() ? 0 : found->second));
-  }
+                        100 * shares.exactly[count]);
+  const std::vector<std::string> required = model_of(file).requirement_texts();
+  for (const std::string& r : required) text += fmt::format("  required: {}\n", printable_line(r));
+  if (!required.empty())
+    text += fmt::format("  satisfied by every solution: on {:.1f} % of the plane; violated by one: on {:.1f} %\n",
+                        100 * shares.satisfied, 100 * shares.violated);
   return text + conclusion(report, report.failures,
                            fmt::format("not confirmed in {} cells: that there are at most as many solutions as claimed\n",
                                        all - report.completed()));
@@ -170,10 +187,14 @@ std::string to_json(const check::MapReport& report, const MapFile& file) {
       {"cells", {{"claimed", report.cells.size()}, {"at_least", report.at_least()}, {"complete", report.completed()}}},
       {"sheets", report.sheets},
       {"boxes", report.boxes}};
-  for (const auto& [name, what] :
-       {std::pair("shares_at_least", &check::MapCellReport::at_least), {"shares", &check::MapCellReport::complete}}) {
+  const ConfirmedShares shares = confirmed_shares(report, file);
+  for (const auto& [name, by_count] : {std::pair("shares_at_least", &shares.at_least), {"shares", &shares.exactly}}) {
     json[name] = nlohmann::ordered_json::object();
-    for (const auto& [count, share] : confirmed_shares(report, file, what)) json[name][std::to_string(count)] = share;
+    for (const auto& [count, share] : *by_count) json[name][std::to_string(count)] = share;
+  }
+  if (const std::vector<std::string> required = model_of(file).requirement_texts(); !required.empty()) {
+    json["require"] = required;
+    json["standings"] = {{"satisfied", shares.satisfied}, {"violated", shares.violated}};
   }
   return ended_json(std::move(json), report, report.failures);
 }

@@ -27,6 +27,14 @@ void store_numbers(const Hdf5Reader& file, const std::string& name, std::vector<
   numbers = file.doubles(name, size, 0);
 }
 
+std::vector<symbolic::SingularitySet> avoided_sets(const std::string& avoid) {
+  using symbolic::SingularitySet;
+  if (avoid == "both") return {SingularitySet::forward, SingularitySet::inverse};
+  for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse, SingularitySet::requirements})
+    if (avoid == symbolic::to_string(set)) return {set};
+  return {};
+}
+
 template <class File, class Data>
 void store_path(File& to, Data& data) {
   const StoredPart file(to);
@@ -35,8 +43,7 @@ void store_path(File& to, Data& data) {
   int n = static_cast<int>(data.variables.size()), nodes = static_cast<int>(tube.nodes.size()),
       across = nodes > 0 ? static_cast<int>(tube.nodes.front().values.size()) : 0;
   file("avoid", data.avoid);
-  file.check(data.avoid == "forward" || data.avoid == "inverse" || data.avoid == "both",
-             "it does not say which singularities it avoids");
+  file.check(avoided_sets(data.avoid).size() > 0, "it does not say which singularities it avoids");
   file("radius", radius);
   file("variables", n, 1, kMostVariables);
   file("dimension", across, 1, n);
@@ -72,15 +79,13 @@ check::TubeReport verify(const PathFile& file, const check::Options& options) {
     return report;
   }
   std::vector<PolynomialMatrix> matrices;
-  for (const auto& [set, block, other] : {std::tuple(symbolic::SingularitySet::forward, Block::forward, "inverse"),
-                                          std::tuple(symbolic::SingularitySet::inverse, Block::inverse, "forward")}) {
-    if (file.avoid == other) continue;
-    const auto blocks = symbolic::velocity_blocks(model, set);
-    if (!blocks) {
+  for (const symbolic::SingularitySet set : avoided_sets(file.avoid)) {
+    std::optional<PolynomialMatrix> matrix = symbolic::locked_polynomials(model, set);
+    if (!matrix) {
       report.failures.emplace_back("the model's velocity equation is not a matrix of polynomials");
       return report;
     }
-    matrices.push_back(blocks->matrices[static_cast<std::size_t>(block)]);
+    matrices.push_back(std::move(*matrix));
   }
   return check::check_tube(system, matrices, file.tube, options);
 }
@@ -88,9 +93,11 @@ check::TubeReport verify(const PathFile& file, const check::Options& options) {
 std::string to_table(const check::TubeReport& report, const PathFile& file) {
   const std::vector<std::string> toleranced = model_of(file).toleranced();
   std::string text = fmt::format(
-      "{}: a path without {} singularities{}\n  nodes     {} of {} confirmed\n  pieces    {} of {}\n"
+      "{}: a path without {}{}\n  nodes     {} of {} confirmed\n  pieces    {} of {}\n"
       "  radius    {:.3g}\n",
-      printable_line(file.model), file.avoid == "both" ? "forward and inverse" : file.avoid,
+      printable_line(file.model),
+      file.avoid == "requirements" ? "limits of requirements"
+                                   : (file.avoid == "both" ? "forward and inverse" : file.avoid) + " singularities",
       toleranced.empty() ? "" : fmt::format(", of every robot within the tolerances of {}", fmt::join(toleranced, ", ")),
       report.nodes, file.tube.nodes.size(), report.pieces, file.tube.pieces.size(), file.tube.radius());
   text += failure_lines(report.failures);

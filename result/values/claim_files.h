@@ -50,7 +50,7 @@ struct CertificateKind {
   int version = 1;
 };
 inline constexpr CertificateKind kShapeKind{"corank topology", 1}, kPiecesKind{"corank aspects", 1},
-    kPathKind{"corank path", 2}, kMapKind{"corank map", 1};
+    kPathKind{"corank path", 2}, kMapKind{"corank map", 2};
 
 /// Throw ResultFileError; symbolic::ModelError where the model has nothing of which this could be claimed. Once `in_haste`
 /// says so, what is left is written as it is.

@@ -7,6 +7,7 @@
 
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/model/model_validator.h"
+#include "corank/symbolic/model/requirement_text.h"
 
 namespace corank::symbolic {
 namespace {
@@ -18,6 +19,23 @@ std::string declared_at(const SourceLocation& where) {
 }  // namespace
 
 bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && same_tree(coordinate.lower, coordinate.upper); }
+
+void Mechanism::require(const std::string& text, const SourceLocation& where) {
+  parse_requirement(text, where);
+  // It is to be one line of a model, with a semicolon behind it.
+  if (text.find_first_of(";[]%") != text.npos || text.find("//") != text.npos || text.find("/*") != text.npos)
+    throw ModelError(where, "the requirement " + in_quotes(text) + " has a comment in it", "one without");
+  std::string line = text;
+  std::ranges::replace_if(
+      line, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  requirements_.push_back({line, where});
+}
+
+std::vector<std::string> Mechanism::requirement_texts() const {
+  std::vector<std::string> texts;
+  for (const RequirementLine& r : requirements_) texts.push_back(r.text);
+  return texts;
+}
 
 Mechanism Mechanism::without_rates() const {
   Mechanism result = *this;

@@ -88,6 +88,12 @@ struct Limit {
   std::string text() const { return "[" + lower.text() + ", " + upper.text() + "]"; }
 };
 
+/// What is required of a configuration besides being one, as its author writes it (requirement_text.h).
+struct RequirementLine {
+  std::string text;
+  SourceLocation where;
+};
+
 /// A component of m, where the mechanism brings its own velocity equation.
 struct Rate {
   std::string name;
@@ -149,6 +155,8 @@ class Mechanism {
   /// ModelError for an inequality.
   void velocity(const Relation& relation, const SourceLocation& where = {});
   void drawing(Drawing drawing) { drawing_ = std::move(drawing); }
+  /// Adds a requirement. Throws ModelError where the text is none; what its names mean is asked where it is used.
+  void require(const std::string& text, const SourceLocation& where = {"requirement", 1, 1});
 
   /// Replaces the value of a declared constant (`-D L2=1`) and its tolerance. Throws ModelError where there is no such
   /// constant.
@@ -188,6 +196,8 @@ class Mechanism {
   const std::vector<Constraint>& velocity_equations() const { return velocity_equations_; }
   bool has_own_velocity_equation() const { return !rates_.empty(); }
   const Drawing& drawing() const { return drawing_; }
+  const std::vector<RequirementLine>& requirements() const { return requirements_; }
+  std::vector<std::string> requirement_texts() const;
   /// Where the inputs (outputs) were named first.
   const SourceLocation& inputs_where() const { return inputs_where_; }
   const SourceLocation& outputs_where() const { return outputs_where_; }
@@ -231,6 +241,7 @@ class Mechanism {
   std::vector<Composite> composites_;
   std::vector<Constraint> constraints_, implied_, velocity_equations_;
   std::vector<Limit> limits_;
+  std::vector<RequirementLine> requirements_;
   std::vector<Rate> rates_;
   std::vector<std::string> inputs_, outputs_;
   SourceLocation inputs_where_, outputs_where_;

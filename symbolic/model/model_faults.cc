@@ -7,7 +7,7 @@ namespace {
 
 const char* const kSections =
     "[CONSTANTS], [SYSTEM VARS], [SECONDARY VARS], [DUMMY VARS], [CARTESIAN VARS], [SYSTEM EQS], [COORD EQS], [DUMMY EQS], "
-    "[IMPLIED EQS], [RATES], [VELOCITY EQS], [SEARCH], [INPUTS], [OUTPUTS], [LIMITS] or [DRAWING]";
+    "[IMPLIED EQS], [RATES], [VELOCITY EQS], [SEARCH], [INPUTS], [OUTPUTS], [LIMITS], [REQUIREMENTS] or [DRAWING]";
 const char* const kOperand = "a number, a name, a function or '('";
 
 /// Length of what Rule matches at the beginning of the text; 0 where it does not.

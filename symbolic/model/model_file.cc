@@ -71,6 +71,11 @@ CORANK_ACTION(listed_name, {
     throw ModelError(where, in_quotes(in.string_view()) + " is not a variable", "the name of a variable");
   (b.names_are_inputs ? b.inputs : b.outputs).push_back(Expression::symbol(in.string(), where));
 })
+CORANK_ACTION(requirement_line, {
+  std::string text = in.string();
+  text.resize(text.find_last_not_of(" \t\r\n") + 1);
+  b.mechanism.require(text, place(in, b));
+})
 CORANK_ACTION(point_name, { declare(in, b); })
 CORANK_ACTION0(moves_word, { b.point_coordinates = b.values.size(); })
 CORANK_ACTION0(point_end, { b.finish_point(); })

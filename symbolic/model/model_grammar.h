@@ -246,6 +246,14 @@ struct drawing_statement
 struct drawing_section
     : seq<drawing_header, star<gap, not_at<section_or_end>, must<drawing_statement>, line_gap, must<drawing_line_end>>> {};
 
+// [REQUIREMENTS]  a text up to its semicolon (requirement_text.cc has its grammar)
+struct requirements_header : header<exactly<"REQUIREMENTS">> {};
+struct requirement_line_end : one<';'> {};
+struct requirement_line : plus<not_one<';', '[', ']'>> {};
+struct requirements_section
+    : seq<requirements_header, star<gap, not_at<section_or_end>, seq<must<requirement_line>, must<requirement_line_end>>>> {
+};
+
 // [SEARCH]  DEPTH FIRST or BREADTH FIRST: the order in which the CUIK suite visits boxes.
 struct search_header : header<exactly<"SEARCH">> {};
 struct search_order
@@ -256,7 +264,8 @@ struct search_section : seq<search_header, gap, must<search_order>, gap, must<se
 struct section_start : at<one<'['>> {};
 struct section
     : seq<must<section_start>, sor<constants_section, variables_section, rates_section, equations_section, names_section,
-                                   limits_section, drawing_section, search_section, unknown_section>> {};
+                                   limits_section, drawing_section, requirements_section, search_section, unknown_section>> {
+};
 struct file_end : eof {};
 struct model : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
 

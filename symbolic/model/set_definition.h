@@ -24,6 +24,7 @@ enum class SingularitySet {
   ri,
   io,
   iim,
+  requirements,  ///< where a requirement reaches its limit
   forward_cusps,
   inverse_cusps,
   forward_nodes,
@@ -59,6 +60,8 @@ struct SetDefinition {
 
   /// Its result consists of parts, each the solutions of a system of its own (boundary.h).
   bool of_parts = false;
+  /// M is that of a companion of the mechanism (requirements.h).
+  bool of_requirements = false;
 
   /// Is it all configurations where M has a kernel, whose side and corank can be asked for?
   bool has_kernel() const { return is_singular() && part == LocusPart::all; }
@@ -66,7 +69,7 @@ struct SetDefinition {
   /// All configurations of a mechanism, among which those of the other sets are.
   bool is_cspace() const { return set && !is_singular(); }
   /// Of those that a report shows unless it is told which: the others take their time, and few mechanisms have them all.
-  bool is_usual() const { return !type && also_locked.empty() && part == LocusPart::all && !of_parts; }
+  bool is_usual() const { return !type && also_locked.empty() && part == LocusPart::all && !of_parts && !of_requirements; }
 };
 
 /// The sets of a mechanism, in the order of a report.

@@ -15,6 +15,7 @@
 #include "corank/symbolic/sets/cusps_and_nodes.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/symbolic/sets/limits.h"
+#include "corank/symbolic/sets/requirements.h"
 
 namespace corank::symbolic {
 namespace {
@@ -79,7 +80,7 @@ class Family {
       if (!is_coordinate && !(constant_too && mechanism_.has_constant(name)))
         refuse(in_quotes(name) + " is not in the model", constant_too ? "a constant or a coordinate" : "a coordinate");
       if (!seen.insert(name).second) refuse(in_quotes(name) + " occurs twice", "each name once");
-      if (is_coordinate && out_.system.coordinates.size() != mechanism_.coordinates().size())
+      if (is_coordinate && is_of_pairs())
         refuse("in pairs of configurations " + in_quotes(name) + " would have one value", "a constant");
     };
     for (const Parameter& p : parameters_) check(p.name, true), parameter_names_.insert(p.name);
@@ -89,6 +90,13 @@ class Family {
         if (depends(limit.lower, p.name) || depends(limit.upper, p.name))
           refuse("the limits of " + in_quotes(limit.coordinate) + " depend on " + in_quotes(p.name),
                  "limits that keep their values");
+  }
+
+  bool is_of_pairs() const {
+    return std::ranges::any_of(out_.system.coordinates, [&](const Coordinate& c) {
+      return std::ranges::any_of(mechanism_.coordinates(),
+                                 [&](const Coordinate& own) { return second_name(mechanism_, own.name) == c.name; });
+    });
   }
 
   // Through the constants that are defined by others as well.
@@ -213,10 +221,13 @@ std::vector<int> mark_parameters(const ParametricSystem& system, System& polynom
 }
 
 FamilySystem family_system(const Mechanism& mechanism, const FamilyQuestion& question) {
-  const ParametricSystem parametric =
-      with_parameters(mechanism, equations_of(mechanism, question), question.over, question.fixed);
+  const Requirements requirements(mechanism, names_of(question.over));
+  TrigonometricSystem equations = equations_of(mechanism, question);
+  requirements.add_to(equations);
+  const ParametricSystem parametric = with_parameters(mechanism, std::move(equations), question.over, question.fixed);
   FamilySystem family{algebrize(parametric.system), {}, parametric.copies};
   family.parameters = mark_parameters(parametric, family.system);
+  family.requirements = requirements.in(family.system);
   return family;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/core/requirement.h"
 #include "corank/core/system.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
@@ -63,11 +64,12 @@ struct FamilyQuestion {
 
 struct FamilySystem {
   System system;
-  std::vector<int> parameters;  ///< variables of the system, in the order of FamilyQuestion::over
-  int copies = 1;               ///< as ParametricSystem's
+  std::vector<int> parameters;              ///< variables of the system, in the order of FamilyQuestion::over
+  int copies = 1;                           ///< as ParametricSystem's
+  std::vector<Requirement> requirements{};  ///< the mechanism's
 };
 
-/// Throws ModelError as with_parameters does, and for a set of parts or of a type.
+/// Throws ModelError as with_parameters and Requirements do, and for a set of parts or of a type.
 FamilySystem family_system(const Mechanism& mechanism, const FamilyQuestion& question);
 
 }  // namespace corank::symbolic

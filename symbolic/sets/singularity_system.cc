@@ -9,6 +9,7 @@
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/sets/cusps_and_nodes.h"
 #include "corank/symbolic/sets/limits.h"
+#include "corank/symbolic/sets/requirements.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
 
 namespace corank::symbolic {
@@ -299,9 +300,10 @@ void KernelQuestion::drop(const std::vector<std::size_t>& rows) {
   }
 }
 
-KernelQuestion kernel_question(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
-  const VelocityEquation velocity = derive(mechanism).velocity;
+KernelQuestion kernel_question(const Mechanism& of, SingularitySet set, std::optional<KernelSide> side) {
   const SetDefinition& asked = definition(set);
+  const Mechanism mechanism = asked.of_requirements ? at_requirements(of) : of;
+  const VelocityEquation velocity = derive(mechanism).velocity;
   const char* const name = velocity.given && asked.locked.empty() ? "L" : asked.matrix;
   KernelQuestion kernel = question_of(mechanism, velocity, asked, asked.locked, name, side);
   if (!asked.also_locked.empty())

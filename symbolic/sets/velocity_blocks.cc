@@ -40,6 +40,31 @@ int rank_at_most(const PolynomialMatrix& m) {
   return static_cast<int>(term_rank(filled, m.columns));
 }
 
+// Nothing where an entry is none: a sine of a length.
+std::optional<std::vector<PolynomialMatrix>> as_polynomials(const Mechanism& mechanism,
+                                                            std::span<const ExpressionMatrix> matrices) {
+  std::vector<Expression> entries;
+  for (const ExpressionMatrix& m : matrices)
+    for (const auto& row : m.rows) entries.insert(entries.end(), row.begin(), row.end());
+  std::vector<Polynomial> list;
+  try {
+    list = polynomials(plain_system(mechanism), entries);
+  } catch (const ModelError&) {
+    return std::nullopt;
+  }
+  std::vector<PolynomialMatrix> result;
+  auto next = list.begin();
+  for (const ExpressionMatrix& of : matrices) {
+    PolynomialMatrix& m = result.emplace_back();
+    m.rows = static_cast<int>(of.rows.size());
+    m.columns = static_cast<int>(of.columns.size());
+    const auto size = static_cast<std::ptrdiff_t>(m.rows) * m.columns;
+    m.entries.assign(std::make_move_iterator(next), std::make_move_iterator(next + size));
+    next += size;
+  }
+  return result;
+}
+
 // The types that are worth a word: with inputs and outputs that fit the mobility.
 TypeSet asked_types(const VelocityEquation& velocity, int inputs, int outputs) {
   using enum SingularityType;
@@ -69,7 +94,7 @@ TypeSet types_of(const SetDefinition& set, Block block, KernelSide side, const E
 
 std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side,
                                               int corank) {
-  if (!definition(set).has_kernel()) return std::nullopt;
+  if (!definition(set).has_kernel() || definition(set).of_requirements) return std::nullopt;
   const VelocityEquation velocity = derive(mechanism).velocity;
   VelocityBlocks blocks;
   blocks.inputs = static_cast<int>(velocity.names_of(Role::input).size());
@@ -82,24 +107,11 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
                                                        velocity.without(kChosen),
                                                        dependent_angles_of(velocity, Role::input),
                                                        dependent_angles_of(velocity, Role::output)};
-  std::vector<Expression> entries;
-  for (const ExpressionMatrix& m : matrices)
-    for (const auto& row : m.rows) entries.insert(entries.end(), row.begin(), row.end());
-  std::vector<Polynomial> list;
-  try {
-    list = polynomials(plain_system(mechanism), entries);
-  } catch (const ModelError&) {  // a sine of a length
-    return std::nullopt;
-  }
-  auto next = list.begin();
+  std::optional<std::vector<PolynomialMatrix>> found = as_polynomials(mechanism, matrices);
+  if (!found) return std::nullopt;
   for (std::size_t b = 0; b < matrices.size(); ++b) {
-    PolynomialMatrix& m = blocks.matrices[b];
-    m.rows = static_cast<int>(matrices[b].rows.size());
-    m.columns = static_cast<int>(matrices[b].columns.size());
-    const auto size = static_cast<std::ptrdiff_t>(m.rows) * m.columns;
-    m.entries.assign(std::make_move_iterator(next), std::make_move_iterator(next + size));
-    next += size;
-    blocks.at_most[b] = rank_at_most(m);
+    blocks.matrices[b] = std::move((*found)[b]);
+    blocks.at_most[b] = rank_at_most(blocks.matrices[b]);
   }
   const auto lower = [&](const KernelQuestion& kernel, std::span<const Role> locked) {
     const Block block = block_of(locked);
@@ -115,6 +127,15 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
   for (const KernelQuestion& second : kernel.also) lower(second, second.set.also_locked);
   blocks.of_set &= blocks.asked;
   return blocks;
+}
+
+std::optional<PolynomialMatrix> locked_polynomials(const Mechanism& mechanism, SingularitySet set) {
+  const SetDefinition& asked = definition(set);
+  const ExpressionMatrix matrix =
+      asked.of_requirements ? kernel_question(mechanism, set).matrix : derive(mechanism).velocity.without(asked.locked);
+  std::optional<std::vector<PolynomialMatrix>> found = as_polynomials(mechanism, std::span(&matrix, 1));
+  if (!found) return std::nullopt;
+  return std::move(found->front());
 }
 
 }  // namespace corank::symbolic

@@ -15,4 +15,8 @@ namespace corank::symbolic {
 std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, SingularitySet set,
                                               std::optional<KernelSide> side = std::nullopt, int corank = 1);
 
+/// Of a set with locked rates M, in the variables of the configurations' system; of forward and inverse singularities with
+/// the rows of zeros that are dependencies. Nothing where an entry is no polynomial in them.
+std::optional<PolynomialMatrix> locked_polynomials(const Mechanism& mechanism, SingularitySet set);
+
 }  // namespace corank::symbolic

@@ -47,6 +47,7 @@ class Writer {
     if (!mechanism_.outputs().empty())
       out_ += (mechanism_.inputs().empty() ? "\n" : "") + ("[OUTPUTS]  " + chosen(mechanism_.outputs()));
     for (const Limit& l : mechanism_.limits()) line("[LIMITS]", padded(l.coordinate, widest_limit()) + " : " + l.text());
+    for (const RequirementLine& r : mechanism_.requirements()) line("[REQUIREMENTS]", r.text + ";");
     write_drawing();
     return out_;
   }

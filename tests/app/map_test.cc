@@ -54,6 +54,35 @@ TEST(MapCommand, WritesWhatVerifyConfirms) {
   EXPECT_THAT(centres.err, HasSubstr("there is no certificate for that"));
 }
 
+TEST(MapCommand, ProvesWhereRequirementsAreMet) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> question{"map",    model("dextar"), "--over",       "J3x=1/4:1",
+                                          "--over", "J3y=3/10:1",    "--resolution", "16"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), question.begin(), question.end());
+    return run_corank(more);
+  };
+  const std::string file = folder.file("r.h5");
+  const auto run = with({"--require", "amplification(outputs) <= 2", "--require", "J3x <= 2", "-o", file, "-o",
+                         folder.file("r.svg"), "-o", folder.file("r.csv")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("required              amplification(outputs) <= 2\n  required              J3x <= 2\n"));
+  EXPECT_THAT(run.out, HasSubstr("proven for every solution there"));
+  EXPECT_THAT(content(folder.file("r.csv")), StartsWith("J3x_lo,J3x_hi,J3y_lo,J3y_hi,kind,count,at_centre,standing\n"));
+  EXPECT_THAT(content(folder.file("r.csv")), HasSubstr(",proven,4,,violated\n"));
+  EXPECT_THAT(content(folder.file("r.svg")), HasSubstr("violated by one solution at least"));
+  const auto verify = run_corank({"verify", file, "--require-proof"});
+  EXPECT_EQ(verify.status, 0) << verify.out;
+  EXPECT_THAT(verify.out, HasSubstr("required: amplification(outputs) <= 2\n"));
+
+  const auto of_lengths = with({"--require", "torque(theta2) <= 3 N m under moment(J3x) <= 1"});
+  EXPECT_EQ(of_lengths.status, 1);
+  EXPECT_THAT(of_lengths.err, HasSubstr("'J3x' is a length; expected a force on it"));
+  const auto unfinished = with({"--require", "amplification(outputs) <="});
+  EXPECT_EQ(unfinished.status, 1);
+  EXPECT_THAT(unfinished.err, HasSubstr("requirement:1:26: "));
+}
+
 TEST(MapCommand, PrintsJsonAlone) {
   const auto run = run_corank({"map", model("three_slider"), "--set", "inverse", "--over", "L1=1:2", "--over", "L2=1/2:9/10",
                                "--resolution", "8", "--json"});

@@ -54,6 +54,34 @@ def test_it_is_drawn_with_a_legend(cusp):
     assert words[:2] == ["3", "1"] and "solutions meet" in words and ax.get_xlabel() == "a"
 
 
+def test_requirements_are_met_violated_or_open(dextar):
+    over = {"J3x": (0.25, 1), "J3y": (0.3, 1.75)}
+    required = dextar.map(over, require="amplification(outputs) <= 2", resolution=32, certificate=True)
+    assert required.at(0.59, 0.55) is True and required.at(0.59, 1.2) is False and required.at(0.59, 0.62) is None
+    assert required.at(0.26, 1.74) is False  # the robot does not reach it
+    assert required.require == ["amplification(outputs) <= 2"] and set(required.standings) == {
+        "satisfied",
+        "violated",
+        "open",
+    }
+    frame = required.to_pandas()
+    assert list(frame.columns)[-1] == "standing" and set(frame.standing.dropna()) == {"satisfied", "violated", "open"}
+    assert required.verify().verified
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    words = [text.get_text() for text in required.plot().get_legend().get_texts()]
+    assert words[:4] == ["satisfied by all", "violated by one", "no solution", "open"]
+    robot = dextar.with_requirements("amplification(outputs) <= 2")
+    assert robot.requirements == ["amplification(outputs) <= 2"] and not dextar.requirements
+    assert robot.with_constants(l="0.91").requirements == robot.requirements
+    ball = robot.clearance({"J3x": 0.59, "J3y": 0.55}, ["J3x", "J3y"], set="requirements")
+    assert 0.066 < ball.lower < 0.0671
+    path = robot.path({"J3x": 0.59, "J3y": 0.55}, {"J3x": 0.59, "J3y": 0.52}, start_mode=1, end_mode=1, avoid="requirements")
+    assert path.data["standing"] == "satisfied"
+    with pytest.raises(corank.ModelError, match="expected outputs or inputs"):
+        dextar.map(over, require=["amplification(x) <= 1"])
+
+
 def test_what_has_no_number_is_refused(cubic, dextar):
     with pytest.raises(corank.ModelError, match="no number of solutions"):
         dextar.map({"l2": (1, 2), "l3": (1, 2)})
@@ -69,6 +97,8 @@ def test_workers_make_the_same_map_and_family(cubic, cusp, three_slider):
 
     with cluster.local_client(workers=2) as client:
         spread = cubic.map(OVER, resolution=32, client=client, progress=False)
+        required = cubic.map(OVER, require="x <= 1", resolution=16, client=client, progress=False)
+        assert required.standings == cubic.map(OVER, require="x <= 1", resolution=16).standings
         values = corank.linspace("4/5", 1, 3)
         family = three_slider.sweep("L2", values, sets=["forward", "inverse"], client=client, progress=False)
 

@@ -14,9 +14,9 @@ TEST(SetDefinitions, AreFoundByTheirNamesAndByTheirSets) {
     EXPECT_EQ(&definition(std::string(d.name)), &d);
     EXPECT_EQ(singularity_set_from_string(to_string(*d.set)), d.set);
   }
-  const std::string kernels = "forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io or iim";
+  const std::string kernels = "forward, inverse, cspace-singular, forward-inverse, ro, rpm, ii, ri, io, iim or requirements";
   EXPECT_EQ(names_of_sets(),
-            "cspace, forward, inverse, cspace-singular, boundary, forward-inverse, ro, rpm, ii, ri, io, iim, "
+            "cspace, forward, inverse, cspace-singular, boundary, forward-inverse, ro, rpm, ii, ri, io, iim, requirements, "
             "forward-cusps, inverse-cusps, forward-nodes or inverse-nodes");
   EXPECT_EQ(names_of_sets(true), kernels);
 }
@@ -25,7 +25,9 @@ TEST(SetDefinitions, OfTypesAndOfTwoKernelsAreShownOnDemandOnly) {
   int usual = 0;
   for (const SetDefinition& d : set_definitions()) {
     usual += d.is_usual();
-    EXPECT_EQ(d.is_usual(), !d.type && d.also_locked.empty() && d.part == LocusPart::all && !d.of_parts) << d.name;
+    EXPECT_EQ(d.is_usual(),
+              !d.type && d.also_locked.empty() && d.part == LocusPart::all && !d.of_parts && !d.of_requirements)
+        << d.name;
   }
   EXPECT_EQ(usual, 4);
 }

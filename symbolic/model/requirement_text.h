@@ -1,0 +1,66 @@
+// A requirement as its author writes it (doc/as_built.md):
+//   amplification(outputs) <= 2
+//   amplification(inputs) <= 3 metric x: 1 mm, phi: 1 deg
+//   torque(theta2) <= 3 N m under force(x, y) <= 50 N, moment(phi) <= 2 N m
+//   error(x, y) <= 0.1 mm under inputs <= 0.01 deg
+//   x^2 + y^2 <= 4
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "corank/symbolic/model/expression.h"
+#include "corank/symbolic/model/set_definition.h"
+
+namespace corank::symbolic {
+
+struct Quantity {
+  Expression value;
+  std::string unit = {};  ///< "mm", "deg", "N", "N m" …; empty: the model's own
+};
+
+struct NamedQuantity {
+  std::string name;
+  Quantity quantity;
+};
+
+/// The largest ‖rates of this role‖ / ‖rates of the other‖ over the feasible velocities.
+struct AmplificationLimit {
+  Role role = Role::output;  ///< or input
+  Quantity most;
+  std::vector<NamedQuantity> metric;  ///< of a column: so much of it counts as 1
+};
+
+struct Load {
+  bool moment = false;             ///< else a force
+  std::vector<std::string> names;  ///< of the rates that it works on: any vector of that length at most
+  Quantity most;
+};
+
+/// The largest torque or force of one motor under any of the loads, each at its worst.
+struct EffortLimit {
+  bool torque = true;
+  std::string motor;
+  Quantity most;
+  std::vector<Load> loads;
+};
+
+/// The largest ‖change of these‖, to first order, where each input errs by its own bound at most.
+struct ErrorLimit {
+  std::vector<std::string> names;
+  Quantity most;
+  std::vector<NamedQuantity> inputs;  ///< the name "inputs" stands for all of them
+};
+
+struct RequirementText {
+  std::string text;
+  std::variant<AmplificationLimit, EffortLimit, ErrorLimit, Relation> limit;
+};
+
+/// `begin`: where the text does. Throws ModelError, with the place, where the text is none.
+RequirementText parse_requirement(std::string_view text, const SourceLocation& begin = {"requirement", 1, 1});
+
+}  // namespace corank::symbolic

@@ -1,0 +1,61 @@
+// What a mechanism's requirements (requirement_text.h) ask of a configuration, as conditions on its feasible velocities m,
+// L m = 0 (velocity_equation.h). The work of motors and loads together is 0 in each of them. So
+//   amplification(outputs) ≤ k            k² ‖m_inputs‖² − ‖m_outputs‖² > 0 on ker L, in the metric's units;
+//   torque(u) ≤ t under ‖f_g‖ ≤ F_g       with the other inputs locked, τ_u m_u + Σ_g f_g·m_g = 0: the largest |τ_u| is
+//                                         Σ_g F_g ‖m_g‖ / |m_u|, m the feasible velocity;
+//   error(x) ≤ e under |δ_i| ≤ d_i        to first order x moves by ‖m_x‖ / |λ|, where m_i = ±d_i λ: largest at a corner of
+//                                         the box of input errors, since a norm is convex.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "corank/core/requirement.h"
+#include "corank/core/system.h"
+#include "corank/symbolic/model/mechanism.h"
+#include "corank/symbolic/sets/singularity_system.h"
+
+namespace corank::symbolic {
+
+class Requirements {
+ public:
+  /// Of the mechanism. `parameters`: constants that have no value, on which no limit may depend. Throws ModelError for a
+  /// name that is none of a rate, a unit of another dimension, a limit that is not positive, or a metric that is missing
+  /// where lengths and angles are compared.
+  explicit Requirements(const Mechanism& mechanism, const std::vector<std::string>& parameters = {});
+
+  /// The functions of coordinates that they hold, and they themselves, their variables as indices into those.
+  std::vector<Expression> functions() const;
+  const std::vector<Requirement>& of_functions() const { return requirements_; }
+
+  /// Adds a coordinate for each function of coordinates that a requirement holds, auxiliary, and the equation that gives it.
+  void add_to(TrigonometricSystem& system) const;
+  /// After that: in the variables of the algebrized system.
+  std::vector<Requirement> in(const System& system) const;
+
+ private:
+  struct Function {
+    std::string name;  ///< of its coordinate
+    Expression value;
+    std::string source;
+  };
+  int function(const Mechanism& mechanism, const Expression& value, const std::string& source);
+  MatrixEntry entry(const Mechanism& mechanism, const Expression& value);
+
+  std::vector<Function> functions_;
+  std::vector<Requirement> requirements_;
+};
+
+/// A mechanism with the same configurations and a velocity equation of its own, whose forward singularities are the
+/// configurations at which a requirement reaches its limit. Its matrix without inputs is square, a block for each condition:
+///   form on ker A           [diag(form), Aᵀ; A, 0]
+///   a load on a motor       the same with form = bound² for the motor, −weight² for each component of the load
+///   f ≤ g                   [f − g]
+/// Theorem: where A has full row rank, the block has the kernel vector (m, λ) ≠ 0 iff m ∈ ker A and diag(form)·m ⊥ ker A,
+/// m ≠ 0: the form on ker A is degenerate. A form that is positive definite at one end of a path and not at the other is
+/// degenerate on the way, or A loses rank there, and then the block is singular, too. So on every path that meets no such
+/// configuration a requirement that is met once is met all along.
+/// Throws ModelError as Requirements does, where there is none, and for a motor under several loads.
+Mechanism at_requirements(const Mechanism& mechanism);
+
+}  // namespace corank::symbolic

@@ -1,0 +1,235 @@
+// Requirements over a plane, against kinematics of their own: no cell claims what a random place contradicts. Their files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <random>
+
+#include "corank/tests/analyze/map_files.h"
+#include "corank/tests/seeds.h"
+
+namespace corank::analyze {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using symbolic::SingularitySet;
+using ::testing::HasSubstr;
+
+// Legs of a crank and a rod each, from a ground joint to a point of the platform, which is at its origin + arm.
+struct Leg {
+  Vector2d ground, arm;
+};
+
+// Of each posture that puts the platform's origin at (x, y) without turning it: J with output rates = J · crank rates.
+// Outputs are the position and, of three legs, the angle.
+std::vector<MatrixXd> postures(const std::vector<Leg>& legs, double crank, double rod, double x, double y) {
+  const auto n = static_cast<int>(legs.size());
+  std::vector<MatrixXd> result;
+  for (int branch = 0; branch < 1 << n; ++branch) {
+    MatrixXd outputs(n, n), inputs = MatrixXd::Zero(n, n);
+    for (int i = 0; i < n; ++i) {
+      const Vector2d to = Vector2d(x, y) + legs[i].arm - legs[i].ground;
+      const double cosine = (to.squaredNorm() + crank * crank - rod * rod) / (2 * crank * to.norm());
+      if (!(std::fabs(cosine) <= 1)) return {};
+      const double angle = std::atan2(to.y(), to.x()) + ((branch >> i & 1) != 0 ? 1 : -1) * std::acos(cosine);
+      const Vector2d e = to - crank * Vector2d(std::cos(angle), std::sin(angle));
+      outputs.row(i).head(2) = e.transpose();
+      if (n == 3) outputs(i, 2) = e.y() * legs[i].arm.x() - e.x() * legs[i].arm.y();
+      inputs(i, i) = crank * e.dot(Vector2d(-std::sin(angle), std::cos(angle)));
+    }
+    result.push_back(outputs.inverse() * inputs);
+  }
+  return result;
+}
+
+std::vector<MatrixXd> dextar_postures(double x, double y) {
+  return postures({{{1.18, 0}, {0, 0}}, {{0, 0}, {0, 0}}}, 0.9, 0.9, x, y);  // theta2 is the one at (d, 0)
+}
+std::vector<MatrixXd> rrr_postures(double x, double y) {
+  const double h = std::sqrt(3) / 2;
+  return postures({{{0, 0}, {0, 0}}, {{2, 0}, {0.5, 0}}, {{1, 2 * h}, {0.25, 0.5 * h}}}, 1, 1, x, y);
+}
+
+struct RequiredCase {
+  const char* name;
+  MapQuestion question;
+  std::function<std::vector<MatrixXd>(double, double)> postures;
+  std::function<double(const MatrixXd&)> value;
+  double most;
+};
+
+study::Question required(study::Question question, const std::vector<std::string>& texts) {
+  study::Model model{std::move(question.model), {}, {}};
+  study::require(texts, model);
+  question.model = std::move(model.mechanism);
+  return question;
+}
+
+MapQuestion dextar_question(const char* require) {
+  return {.question = required(model_question("dextar.cuik", SingularitySet::cspace), {require}),
+          .over = {{"J3x", "-1/4", "1"}, {"J3y", "-1/2", "3/2"}}};
+}
+
+std::vector<RequiredCase> required_cases() {
+  const auto error = [](const MatrixXd& j) {
+    return 0.01 * std::max((j * Vector2d(1, 1)).norm(), (j * Vector2d(1, -1)).norm());
+  };
+  const auto largest = [](const MatrixXd& j) { return Eigen::JacobiSVD<MatrixXd>(j).singularValues()(0); };
+  MapQuestion rrr{.question = required(model_question("3rrr.cuik", SingularitySet::cspace),
+                                       {"amplification(outputs) <= 3 metric x: 1, y: 1, phi: 1"}),
+                  .over = {{"x", "1/4", "5/4"}, {"y", "0", "1"}},
+                  .fixed = {{"phi", "0"}}};
+  return {{"amplification of outputs", dextar_question("amplification(outputs) <= 2"), dextar_postures, largest, 2},
+          {"amplification of inputs", dextar_question("amplification(inputs) <= 2"), dextar_postures,
+           [&](const MatrixXd& j) { return largest(j.inverse()); }, 2},
+          {"torque", dextar_question("torque(theta2) <= 3 N m under force(J3x, J3y) <= 20 N"), dextar_postures,
+           [](const MatrixXd& j) { return 20 * j.col(0).norm(); }, 30},
+          {"error", dextar_question("error(J3x, J3y) <= 4 mm under inputs <= 0.01"), dextar_postures, error, 0.04},
+          {"three legs", rrr, rrr_postures, largest, 3}};
+}
+
+const MapCellAnswer* cell_at(const ParameterMap& map, double x, double y) {
+  for (const MapCellAnswer& c : map.cells)
+    if (c.sides[0].contains(x) && c.sides[1].contains(y)) return &c;
+  return nullptr;
+}
+
+TEST(RequiredMap, ClaimsNothingThatAPlaceContradicts) {
+  for (const RequiredCase& c : required_cases()) {
+    SCOPED_TRACE(c.name);
+    solve::Control control;
+    const ParameterMap map =
+        parameter_map(c.question, {.resolution = test::long_run() ? 256 : 64, .boundary = false, .threads = 2}, control);
+    std::mt19937 random(1);
+    const int places = test::long_run() ? 100'000 : 3000;
+    int satisfied = 0, violated = 0, open = 0;
+    for (int k = 0; k < places; ++k) {
+      const auto in = [&](const Interval& side) {
+        return std::uniform_real_distribution<double>(side.lo(), side.hi())(random);
+      };
+      const double x = in(map.region[0]), y = in(map.region[1]);
+      const MapCellAnswer* cell = cell_at(map, x, y);
+      ASSERT_NE(cell, nullptr);
+      const std::vector<MatrixXd> all = c.postures(x, y);
+      EXPECT_EQ(cell->count.value_or(static_cast<int>(all.size())), static_cast<int>(all.size())) << x << " " << y;
+      if (all.empty()) continue;
+      double worst = 0;
+      for (const MatrixXd& j : all) worst = std::max(worst, c.value(j));
+      if (!cell->standing || cell->standing == Standing::open) {
+        ++open;
+      } else if (cell->standing == Standing::satisfied) {
+        ++satisfied;
+        EXPECT_LT(worst, c.most * (1 + 1e-9)) << x << " " << y;
+      } else {
+        ++violated;
+        EXPECT_GT(worst, c.most * (1 - 1e-9)) << x << " " << y;
+      }
+    }
+    EXPECT_GT(satisfied, places / 100);
+    EXPECT_GT(violated, places / 10);
+    EXPECT_LT(open, places / 2);
+    double all = map.shares()[0];
+    for (const Standing s : {Standing::satisfied, Standing::violated, Standing::open}) all += map.share_where(s);
+    EXPECT_NEAR(all, 1, 1e-9);
+  }
+}
+
+TEST(RequiredMap, OfAFunctionIsWhereItsSignIsKnown) {
+  const MapQuestion question{
+      .question = required(question_of("[CONSTANTS]\na := 0\nb := 0\n[SYSTEM VARS]\nx : [-9, 9]\n[SYSTEM EQS]\n"
+                                       "x = a + b;"),
+                           {"x^2 <= 1/4", "a*x >= -1"}),
+      .over = {{"a", "-1", "1"}, {"b", "-1", "1"}}};
+  solve::Control control;
+  const ParameterMap map = parameter_map(question, {.resolution = 32, .boundary = false}, control);
+  for (const MapCellAnswer& c : map.cells) {
+    const Interval x = c.sides[0] + c.sides[1];
+    EXPECT_TRUE(c.standing != Standing::satisfied || x.mag() <= 0.5) << x;
+    EXPECT_TRUE(c.standing != Standing::violated || x.mig() > 0.5) << x;
+  }
+  EXPECT_NEAR(map.share_where(Standing::satisfied), 0.4375, 0.1);
+  EXPECT_NEAR(map.share_where(Standing::violated), 0.5625, 0.1);
+}
+
+TEST(RequiredMap, IsRefusedWhereItMeansNothing) {
+  const auto fault = [](MapQuestion question) -> std::string {
+    try {
+      ParameterMapper(std::move(question), {});
+    } catch (const symbolic::ModelError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  MapQuestion lengths = dextar_question("amplification(outputs) <= 2*l");
+  lengths.over = {{"l", "1/2", "1"}, {"J3y", "0", "1"}};
+  lengths.fixed = {{"J3x", "1/2"}};
+  EXPECT_THAT(fault(lengths), HasSubstr("depends on a parameter"));
+}
+
+constexpr const char* kRequired = "amplification(outputs) <= 2";
+
+const MapFile& file() {
+  static const MapFile made =
+      make_file(MapQuestion{.question = required(model_question("dextar.cuik", SingularitySet::cspace), {kRequired}),
+                            .over = {{"J3x", "1/4", "1"}, {"J3y", "3/10", "8/10"}}},
+                32);
+  return made;
+}
+
+TEST(RequiredMap, IsVerifiedAsItWasWritten) {
+  const std::string path = ::testing::TempDir() + "required_map_test.h5";
+  result::write_map(path, file());
+  const MapFile read = result::read_map(path);
+  const check::MapReport report = result::verify(read);
+  EXPECT_TRUE(report.complete()) << result::to_table(report, read);
+  EXPECT_THAT(result::to_table(report, read),
+              HasSubstr("required: amplification(outputs) <= 2\n  satisfied by every solution: on"));
+  EXPECT_THAT(result::to_json(report, read), HasSubstr("\"violated\": "));
+}
+
+std::size_t index_of(Standing standing, std::size_t from) {
+  const auto& cells = file().claims.cells;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    if (const std::size_t c = (from + k) % cells.size(); cells[c].standing == standing && cells[c].count > 0) return c;
+  throw std::logic_error("no such cell");
+}
+
+// One cell alone, so that what is refused is its claim.
+std::vector<std::string> failures(MapCellClaim cell, const std::string& require = {}) {
+  MapFile changed = file();
+  changed.claims.cells = {std::move(cell)};
+  if (!require.empty()) changed.model_text.replace(changed.model_text.find(kRequired), std::strlen(kRequired), require);
+  return result::verify(changed).failures;
+}
+
+TEST(RequiredMap, ThatSomebodyChangedIsRefused) {
+  const auto& cells = file().claims.cells;
+  std::mt19937 random(3);
+  for (unsigned k = 0; k < test::seeds(6); ++k) {
+    for (const Standing of : {Standing::satisfied, Standing::violated}) {
+      const MapCellClaim& good = cells[index_of(of, random() % cells.size())];
+      EXPECT_TRUE(failures(good).empty());
+      MapCellClaim changed = good;
+      changed.standing = of == Standing::satisfied ? Standing::violated : Standing::satisfied;
+      EXPECT_FALSE(failures(changed).empty());
+      EXPECT_FALSE(failures(good, of == Standing::satisfied ? "amplification(outputs) <= 1" : "amplification(outputs) <= 99")
+                       .empty());
+    }
+    MapCellClaim open = cells[index_of(Standing::open, random() % cells.size())];
+    double worst = 0;  // at one place in it
+    for (const MatrixXd& j : dextar_postures(open.sides[0].mid(), open.sides[1].mid()))
+      worst = std::max(worst, Eigen::JacobiSVD<MatrixXd>(j).singularValues()(0));
+    open.standing = worst > 2 ? Standing::satisfied : Standing::violated;
+    EXPECT_FALSE(failures(open).empty()) << worst;
+  }
+  MapFile without = file();
+  without.model_text.resize(without.model_text.find("[REQUIREMENTS]"));
+  EXPECT_FALSE(result::verify(without).verified());
+}
+
+}  // namespace
+}  // namespace corank::analyze

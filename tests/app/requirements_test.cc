@@ -1,0 +1,86 @@
+// Requirements as a user gives them: where they reach their limits, how far that is, and paths that keep from there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "corank/tests/app/program.h"
+#include "corank/tests/seeds.h"
+
+namespace corank::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const char* const kRequired = "amplification(outputs) <= 2";
+
+void expect_verified(const std::string& file, int status = 0) {
+  const auto verify = run_corank({"verify", file});
+  EXPECT_EQ(verify.status, status) << verify.out << verify.err;
+}
+
+TEST(RequirementCommands, EncloseWhereOneIsAtItsLimit) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("r.h5");
+  const auto run =
+      run_corank({"solve", model("dextar"), "--set", "requirements", "--require", kRequired, "--sigma", "0.1", "-o", file});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, StartsWith("dextar, requirements: "));
+  EXPECT_THAT(run.out, HasSubstr("complete: every solution in the search domain is in a box"));
+  expect_verified(file, 4);
+  const auto none = run_corank({"solve", model("dextar"), "--set", "requirements"});
+  EXPECT_EQ(none.status, 1);
+  EXPECT_THAT(none.err, HasSubstr("the model has no requirements"));
+}
+
+TEST(RequirementCommands, BoundHowFarThatIs) {
+  const TemporaryFolder folder;
+  const auto run = run_corank({"clearance", model("dextar"), "--require", kRequired, "--at", "J3x=0.59,J3y=0.55", "--in",
+                               "J3x,J3y", "--proof", folder.file("c")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("required: amplification(outputs) <= 2\nradius in [0.066"));
+  EXPECT_THAT(run.out, HasSubstr("it is proven that no limit of a requirement is nearer than the lower bound"));
+  expect_verified(folder.file("c-free.h5"));
+  expect_verified(folder.file("c-nearest.h5"), 4);
+}
+
+TEST(RequirementCommands, FindPathsThatKeepFromThere) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("p.h5");
+  const auto path = [&](const std::string& y, const std::string& mode) {
+    return run_corank({"path", model("dextar"), "--require", kRequired, "--from", "J3x=0.59,J3y=0.55", "--from-mode", "1",
+                       "--to", "J3x=0.59,J3y=" + y, "--to-mode", mode, "-o", file});
+  };
+  const auto near = path("0.52", "1");
+  EXPECT_EQ(near.status, 0) << near.err;
+  EXPECT_THAT(near.out, StartsWith("dextar, limits of requirements avoided\n  status      path, proven\n"));
+  const auto verify = run_corank({"verify", file});
+  EXPECT_EQ(verify.status, 0) << verify.out;
+  EXPECT_THAT(verify.out, StartsWith("dextar: a path without limits of requirements\n"));
+  EXPECT_THAT(near.out, HasSubstr("met on the whole path, proven"));
+  // There the end is faster in that posture.
+  EXPECT_THAT(path("0.75", "3").out, HasSubstr("separated: it is proven that no such path exists"));
+}
+
+// D. Chablat, P. Wenger, "Architecture optimization of a 3-DOF translational parallel mechanism for machining applications,
+// the Orthoglide", IEEE Trans. Robotics and Automation 19, 2003: with rods of length 1 the velocity amplification is between
+// 1/2 and 2 on the cube [-1/sqrt(6), 1/(3 sqrt(2))]^3, whose corners it is 2 or 1/2 at.
+TEST(RequirementCommands, KnowTheOrthoglidesCube) {
+  const auto cube = [](const std::string& factor) {
+    std::vector<std::string> command{"clearance", model("platforms/orthoglide"),
+                                     "--require", "amplification(outputs) <= 2",
+                                     "--require", "amplification(inputs) <= 2",
+                                     "--at",      "x=0,y=0,z=0",
+                                     "--in",      "x,y,z"};
+    for (const std::string axis : {"x", "y", "z"}) {
+      command.insert(command.end(), {"--range", axis + "=[-" + factor + "/sqrt(6)," + factor + "/(3*sqrt(2))]"});
+      command.insert(command.end(), {"--range", "d" + std::to_string(axis[0] - 'x' + 1) + "=[1/2,2]"});
+    }
+    return run_corank(command).out;
+  };
+  EXPECT_THAT(cube(test::long_run() ? "0.99" : "0.8"), HasSubstr("it is proven that there is no limit of a requirement"));
+  if (!test::long_run()) return;
+  EXPECT_THAT(cube("1.01"), HasSubstr("nearest limit of a requirement found, proven to exist"));
+}
+
+}  // namespace
+}  // namespace corank::app

@@ -1,0 +1,112 @@
+// Random requirements on a matrix whose entries are affine in two offsets but for a small rest, and whether a matrix meets
+// them, found without a proof.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "corank/core/requirement.h"
+
+namespace corank::test {
+
+struct PlantedRequirement {
+  struct Entry {
+    double constant = 0, slopes[2] = {0, 0}, rest = 0;  // rest: at most that far from affine
+  };
+
+  Requirement requirement;
+  std::vector<Entry> entries;  // of the variable of that index
+  double width = 0;            // offsets are in [−width, width]
+
+  explicit PlantedRequirement(unsigned seed) : random_(seed) {
+    const int kernel = 1 + seed % 3, rows = 1 + static_cast<int>(random_() % 4);
+    VelocityTest test;
+    test.columns = rows + kernel;
+    width = std::pow(10.0, number(-3, 0));
+    for (int k = 0; k < rows * test.columns; ++k) {
+      if (random_() % 5 == 0) {
+        test.matrix.push_back({-1, static_cast<int>(random_() % 3) - 1});
+        continue;
+      }
+      test.matrix.push_back({static_cast<int>(entries.size()), {}});
+      entries.push_back({number(-1, 1), {number(-1, 1), number(-1, 1)}, random_() % 2 == 0 ? 0 : 0.1 * width * width});
+    }
+    const auto decimal = [&](double x) { return ExactNumber::rational(std::to_string(x)); };
+    if (kernel == 1 && random_() % 2 == 0) {
+      const int first = 1 + static_cast<int>(random_() % rows);
+      test.groups.push_back({{}, decimal(number(0.1, 2))});
+      for (int j = 0; j < first; ++j) test.groups[0].columns.push_back(j);
+      if (first < rows) test.groups.push_back({{first}, decimal(number(0.1, 2))});
+      test.bound = decimal(std::pow(10.0, number(-1, 1)));
+    } else {
+      for (int j = 0; j < test.columns; ++j)
+        test.form.push_back(j < kernel ? decimal(std::pow(10.0, number(-1, 2))) : ExactNumber(j % 2 == 0 ? -1 : 0));
+    }
+    requirement.tests.push_back(std::move(test));
+  }
+
+  double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
+
+  /// Does it hold for random offsets and rests? Negative: it does not; by how much, relatively.
+  double margin() {
+    const VelocityTest& test = requirement.tests[0];
+    const double offsets[2] = {at_random(), at_random()};
+    Eigen::MatrixXd a(test.rows(), test.columns);
+    for (int k = 0; k < static_cast<int>(test.matrix.size()); ++k) {
+      const MatrixEntry& e = test.matrix[k];
+      double value = e.number.enclose().mid();
+      if (e.variable >= 0) {
+        const Entry& entry = entries[e.variable];
+        value = entry.constant + entry.slopes[0] * offsets[0] + entry.slopes[1] * offsets[1] + entry.rest * number(-1, 1);
+      }
+      a(k / test.columns, k % test.columns) = value;
+    }
+    const Eigen::MatrixXd kernel = Eigen::FullPivLU<Eigen::MatrixXd>(a).kernel();
+    if (!test.form.empty()) {
+      Eigen::VectorXd form(test.columns);
+      for (int j = 0; j < test.columns; ++j) form(j) = test.form[j].enclose().mid();
+      const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(kernel).householderQ() *
+                                    Eigen::MatrixXd::Identity(kernel.rows(), kernel.cols());
+      const Eigen::MatrixXd q = basis.transpose() * form.asDiagonal() * basis;
+      return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(q).eigenvalues()(0) / form.cwiseAbs().maxCoeff();
+    }
+    const Eigen::VectorXd v = kernel.col(0).normalized();
+    double sum = 0;
+    for (const VelocityTest::Group& g : test.groups) sum += g.weight.enclose().mid() * Eigen::VectorXd(v(g.columns)).norm();
+    return test.bound.enclose().mid() * std::fabs(v(v.size() - 1)) - sum;
+  }
+
+ private:
+  // The ends more often than values between them.
+  double at_random() { return random_() % 2 == 0 ? number(-width, width) : random_() % 2 == 0 ? width : -width; }
+
+  std::mt19937 random_;
+};
+
+/// How often `standing(planted)` was decided, and contradicted by a sample.
+struct PlantedCount {
+  int satisfied = 0, violated = 0, open = 0, contradicted = 0;
+};
+
+template <typename Decide>
+PlantedCount count_planted(unsigned seeds, const Decide& standing) {
+  PlantedCount count;
+  for (unsigned seed = 0; seed < seeds; ++seed) {
+    PlantedRequirement planted(seed);
+    const Standing claimed = standing(planted);
+    ++(claimed == Standing::satisfied ? count.satisfied : claimed == Standing::violated ? count.violated : count.open);
+    if (claimed == Standing::open) continue;
+    for (int sample = 0; sample < 50; ++sample) {
+      const double margin = planted.margin();
+      if (claimed == Standing::satisfied ? margin < -1e-9 : margin > 1e-9) {
+        ++count.contradicted;
+        break;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace corank::test

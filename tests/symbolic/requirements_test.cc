@@ -1,0 +1,199 @@
+// Requirements as texts, and what they become.
+#include "corank/symbolic/sets/requirements.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/model/requirement_text.h"
+#include "corank/symbolic/sets/parameters.h"
+#include "corank/symbolic/writing/printer.h"
+
+namespace corank::symbolic {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const Mechanism& dextar() {
+  static const Mechanism model = read_model(std::string(CORANK_SOURCE_DIR) + "/models/dextar.cuik");
+  return model;
+}
+const Mechanism& rrr() {
+  static const Mechanism model = read_model(std::string(CORANK_SOURCE_DIR) + "/models/3rrr.cuik");
+  return model;
+}
+
+template <class Limit>
+Limit parsed(const std::string& text) {
+  return std::get<Limit>(parse_requirement(text).limit);
+}
+
+TEST(RequirementText, HasFourForms) {
+  const auto plain = parsed<AmplificationLimit>("amplification(outputs) <= 3/2");
+  EXPECT_EQ(plain.role, Role::output);
+  EXPECT_EQ(plain.most.value.text(), "3/2");
+  const auto metric = parsed<AmplificationLimit>("amplification( inputs )<=k metric x: 1 mm, phi:2 deg");
+  EXPECT_EQ(metric.role, Role::input);
+  ASSERT_EQ(metric.metric.size(), 2u);
+  EXPECT_EQ(metric.metric[0].name + metric.metric[0].quantity.unit, "xmm");
+  EXPECT_EQ(metric.metric[1].name + metric.metric[1].quantity.unit, "phideg");
+
+  const auto effort = parsed<EffortLimit>("torque(theta2) <= 3 N m under force(x, y) <= 50 N, moment(phi) <= 2 kN*mm");
+  EXPECT_TRUE(effort.torque);
+  EXPECT_EQ(effort.motor, "theta2");
+  EXPECT_EQ(effort.most.unit, "N m");
+  ASSERT_EQ(effort.loads.size(), 2u);
+  EXPECT_THAT(effort.loads[0].names, ElementsAre("x", "y"));
+  EXPECT_EQ(effort.loads[0].most.unit, "N");
+  EXPECT_TRUE(effort.loads[1].moment);
+  EXPECT_EQ(effort.loads[1].most.unit, "kN mm");
+
+  const auto error = parsed<ErrorLimit>("error(x, y) <= 0.1 mm under inputs ± 0.01 deg");
+  EXPECT_THAT(error.names, ElementsAre("x", "y"));
+  EXPECT_EQ(error.most.unit, "mm");
+  ASSERT_EQ(error.inputs.size(), 1u);
+  EXPECT_EQ(error.inputs[0].name, "inputs");
+  EXPECT_EQ(parsed<ErrorLimit>("error(x) <= 1 under a +- 1, b <= 2").inputs.size(), 2u);
+
+  EXPECT_EQ(parsed<Relation>("x^2 + y^2 <= 4").text(), "x^2 + y^2 <= 4");
+  EXPECT_EQ(parsed<Relation>("sin(theta) >= 1/2").text(), "sin(theta) >= 1/2");
+  EXPECT_EQ(parsed<Relation>("torque <= 1").text(), "torque <= 1") << "a name like another";
+}
+
+std::string fault_in(const std::string& text) {
+  try {
+    parse_requirement(text);
+  } catch (const ModelError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(RequirementText, SaysWhereItsFaultIs) {
+  EXPECT_THAT(fault_in(""), HasSubstr("expected a number, a name"));
+  EXPECT_THAT(fault_in("amplification(x) <= 1"), HasSubstr("expected outputs or inputs"));
+  EXPECT_THAT(fault_in("amplification(outputs) < 1"), HasSubstr("expected '<='"));
+  EXPECT_THAT(fault_in("amplification(outputs) <= 1 m"), ::testing::Eq("none")) << "its unit is refused later";
+  EXPECT_THAT(fault_in("amplification(outputs) <= 1 miles"), HasSubstr("expected the end of the requirement"));
+  EXPECT_THAT(fault_in("amplification(outputs) <= 1 metric"), HasSubstr("expected the name of an input"));
+  EXPECT_THAT(fault_in("amplification(outputs) <= 1 metric x 1"), HasSubstr("expected ':'"));
+  EXPECT_THAT(fault_in("torque(a) <= 1"), HasSubstr("expected a unit, or under"));
+  EXPECT_THAT(fault_in("torque(a, b) <= 1 under force(x) <= 1"), HasSubstr("one motor"));
+  EXPECT_THAT(fault_in("torque(a) <= 1 under weight(x) <= 1"), HasSubstr("expected force or moment"));
+  EXPECT_THAT(fault_in("torque(a) <= 1 under force(x <= 1"), HasSubstr("expected ',' or ')'"));
+  EXPECT_THAT(fault_in("torque() <= 1 under force(x) <= 1"), HasSubstr("expected the name of a coordinate"));
+  EXPECT_THAT(fault_in("error(x) <= 1 under inputs = 1"), HasSubstr("expected '<=' or '±'"));
+  EXPECT_THAT(fault_in("error(x) <= 1 under <= 1"), HasSubstr("expected inputs"));
+  EXPECT_THAT(fault_in("x = 1"), HasSubstr("expected an operator, '<=' or '>='"));
+  EXPECT_THAT(fault_in("x <= 1 N"), HasSubstr("requirement:1:8"));
+  EXPECT_THAT(fault_in(std::string("x <= \xFF")), HasSubstr("requirement:1:"));
+}
+
+Mechanism with(Mechanism model, const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) model.require(text);
+  return model;
+}
+
+FamilySystem family(const std::vector<std::string>& texts) {
+  return family_system(with(dextar(), texts), {.set = SingularitySet::cspace, .over = {{"theta2", "0", "1"}}});
+}
+
+TEST(Requirements, HaveUnits) {
+  // Of the model in dm: 3 N m are 30 N dm, 5 mm are 1/20 dm.
+  const std::vector<Requirement> r =
+      family({"torque(theta2) <= 3 N m under force(J3x, J3y) <= 1 kN", "error(J3x) <= 5 mm under inputs ± 90 deg"})
+          .requirements;
+  ASSERT_EQ(r[0].tests.size(), 1u);
+  EXPECT_EQ(r[0].tests[0].bound.text(), "30");
+  ASSERT_EQ(r[0].tests[0].groups.size(), 1u);
+  EXPECT_EQ(r[0].tests[0].groups[0].weight.text(), "1000");
+  EXPECT_EQ(r[1].tests.size(), 2u) << "the corners of two inputs' errors, up to the sign";
+  EXPECT_EQ(r[1].tests[0].bound.text(), "1/20");
+}
+
+TEST(Requirements, ShareTheFunctionsThatTheyHold) {
+  const std::string text = "amplification(outputs) <= 2";
+  const auto size = [](const std::vector<std::string>& texts) { return family(texts).system.size(); };
+  EXPECT_GT(size({text}), size({}));
+  EXPECT_EQ(size({text, text}), size({text}));
+}
+
+std::string refusal(const Mechanism& model, const std::string& text, const std::vector<std::string>& parameters = {}) {
+  try {
+    Requirements(with(model, {text}), parameters);
+  } catch (const ModelError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Requirements, AreRefusedWhereTheyMeanNothing) {
+  EXPECT_THAT(refusal(dextar(), "torque(theta3) <= 1 under force(J3x) <= 1"), HasSubstr("'theta3' is no input"));
+  EXPECT_THAT(refusal(dextar(), "torque(theta22) <= 1 under force(J3x) <= 1"), HasSubstr("did you mean 'theta2'"));
+  EXPECT_THAT(refusal(dextar(), "force(theta2) <= 1 under force(J3x) <= 1"), HasSubstr("is an angle; expected torque"));
+  EXPECT_THAT(refusal(dextar(), "torque(theta2) <= 1 N under force(J3x) <= 1"), HasSubstr("N is the unit of a force"));
+  EXPECT_THAT(refusal(dextar(), "torque(theta2) <= 1 under moment(J3x) <= 1"), HasSubstr("'J3x' is a length"));
+  EXPECT_THAT(refusal(dextar(), "torque(theta2) <= 1 under force(J3x, J3x) <= 1"), HasSubstr("occurs twice"));
+  EXPECT_THAT(refusal(dextar(), "torque(theta2) <= 1 under force(theta5) <= 1"), HasSubstr("is an input"));
+  EXPECT_THAT(refusal(dextar(), "torque(theta2) <= -1 under force(J3x) <= 1"), HasSubstr("is not positive"));
+  EXPECT_THAT(refusal(dextar(), "amplification(outputs) <= 1 m"), HasSubstr("has no unit"));
+  EXPECT_THAT(refusal(dextar(), "error(J3x) <= 1 deg under inputs <= 1"),
+              HasSubstr("deg is the unit of an angle; expected the unit of a length"));
+  EXPECT_THAT(refusal(dextar(), "error(J3x) <= 1 under theta2 <= 1"), HasSubstr("the error of 'theta5' is not given"));
+  EXPECT_THAT(refusal(dextar(), "amplification(outputs) <= 2*l", {"l"}), HasSubstr("depends on a parameter"));
+  EXPECT_THAT(refusal(dextar(), "amplification(outputs) <= 2*l2", {"l"}), HasSubstr("depends on a parameter"))
+      << "through another constant";
+  EXPECT_THAT(refusal(rrr(), "amplification(outputs) <= 1"), HasSubstr("expected metric"));
+  EXPECT_THAT(refusal(rrr(), "error(x, phi) <= 1 under inputs <= 1"), HasSubstr("a requirement for each"));
+  EXPECT_THAT(refusal(rrr(), "error(x) <= 1 mm under inputs <= 1"), HasSubstr("unit"));
+  EXPECT_THAT(refusal(parse_model("[SYSTEM VARS]\nx : [0, 1]\n[SYSTEM EQS]\nx^2 = x;", "m"), "amplification(outputs) <= 1"),
+              HasSubstr("a plain system"));
+}
+
+TEST(Requirements, HaveASectionInAModel) {
+  const std::string text =
+      "[SYSTEM VARS]\nx : [-2, 2]\nu ~ [-pi, pi]\n[SYSTEM EQS]\nx = cos(u);\n[INPUTS] u\n[OUTPUTS] x\n"
+      "[REQUIREMENTS]\namplification(outputs) <= 1/2;  % slow\n  x <= 1;\n";
+  const Mechanism model = parse_model(text, "m.cuik");
+  EXPECT_THAT(model.requirement_texts(), ElementsAre("amplification(outputs) <= 1/2", "x <= 1"));
+  EXPECT_THAT(parse_model(to_model(model), "m.cuik").requirement_texts(),
+              ElementsAre("amplification(outputs) <= 1/2", "x <= 1"));
+  const auto fault_of = [&](const std::string& line) -> std::string {
+    try {
+      parse_model(text + line, "m.cuik");
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(fault_of("x <=\n 1;"), ::testing::Eq("none"));
+  EXPECT_THAT(fault_of("x <= 1 % slow\n;"), HasSubstr("has a comment in it"));
+  EXPECT_THAT(fault_of("x < 1;"), HasSubstr("m.cuik:11:3: "));
+  EXPECT_THAT(fault_of("x <= 1"), HasSubstr("expected ';' after the requirement"));
+  EXPECT_THAT(fault_of(";"), HasSubstr("expected a requirement, or a section"));
+}
+
+// x = cos u: |dx/du| = |sin u| ≤ 1/2 is at its limit where sin u = ±1/2; x ≤ 1/4 where x = 1/4.
+TEST(Requirements, ReachTheirLimitsOnASet) {
+  const Mechanism model = parse_model(
+      "[SYSTEM VARS]\nx : [-2, 2]\nu ~ [-pi, pi]\n[SYSTEM EQS]\nx = cos(u);\n[INPUTS] u\n[OUTPUTS] x\n", "m.cuik");
+  const auto matrix = [&](const std::string& text) {
+    return kernel_question(with(model, {text}), SingularitySet::requirements).matrix;
+  };
+  const ExpressionMatrix of_form = matrix("amplification(outputs) <= 1/2");
+  EXPECT_EQ(of_form.rows.size(), 3u);
+  EXPECT_EQ(of_form.columns.size(), 3u);
+  EXPECT_EQ(matrix("x <= 1/4").rows.size(), 1u);
+  EXPECT_EQ(matrix("x <= 1/4").rows[0][0].text(), "-0.25 + x");
+  EXPECT_THROW(kernel_question(model, SingularitySet::requirements), ModelError) << "there are none";
+}
+
+TEST(Requirements, OfSeveralLoadsHaveNoSet) {
+  const auto question = [](const std::string& text) { kernel_question(with(rrr(), {text}), SingularitySet::requirements); };
+  EXPECT_NO_THROW(question("torque(theta1) <= 1 under force(x, y) <= 1"));
+  EXPECT_THROW(question("torque(theta1) <= 1 under force(x, y) <= 1, moment(phi) <= 1"), ModelError);
+}
+
+}  // namespace
+}  // namespace corank::symbolic
