@@ -148,7 +148,7 @@ bool write_claims(const ClearanceCommand& command, const analyze::Clearance& cle
   const auto nearest = claim_nearest(clearance, control);
   if (nearest) result::write_result(nearest_file(command), *nearest);
   if (!nearest)
-    fmt::print(stderr, "corank: {}: not written, since the nearest singularity could not be proven again{}\n",
+    fmt::print(stderr, "corank: {}: not written, since the nearest configuration could not be proven again{}\n",
                nearest_file(command), ending_words(control));
   return is_free && nearest;
 }
@@ -219,7 +219,9 @@ ExitStatus run_map(ClearanceCommand command) {
   run.line.clear();
   result::write_text(command.output, is(".svg") ? to_svg(picture(map)) : is(".csv") ? to_csv(map) : to_json(map) + "\n");
   if (command.json.say([&] { return to_json(map); })) {
-    if (map.empty) fmt::print("it is proven that there is no singularity in the ranges\n");
+    if (map.empty)
+      fmt::print("it is proven that the set {} has no configuration in the ranges\n",
+                 symbolic::definition(run.question.set).name);
     fmt::print("{} cells, {} boxes processed, {:.3f} s: {}\n", map.cells.size(), map.processed, map.seconds,
                result::printable(command.output));
   }
@@ -236,7 +238,8 @@ void add_clearance(CLI::App& program, Action& action) {
       "Find how far a point, such as a position of the outputs, is from singularities: the largest ball about "
       "it that holds none");
   const auto command = std::make_shared<ClearanceCommand>();
-  command->question.add_options(*sub, "Which configurations the ball must not hold");
+  command->question.add_options(*sub, "Which configurations the ball must not hold",
+                                "Then the ball holds no configuration at which one reaches its limit");
   sub->add_option(
          "--at", command->at,
          "The centre of the ball, and other coordinates that keep a value; a VALUE may use the model's constants, and\n"
@@ -302,9 +305,10 @@ void add_clearance(CLI::App& program, Action& action) {
   command->limits.add_options(*sub, "the search");
   command->json.add(*sub);
   sub->footer(
-      "Without --set, the ball must not hold forward singularities. A coordinate with a value in --at keeps this value,\n"
-      "unless --in names the coordinate or an option gives it a range. All other coordinates may have any value in their\n"
-      "ranges. So the ball holds no singularity of any assembly or working mode within these ranges.\n\n"
+      "Without --set, the ball must not hold forward singularities; with --require, no configurations at which a\n"
+      "requirement reaches its limit. A coordinate with a value in --at keeps this value, unless --in names the\n"
+      "coordinate or an option gives it a range. All other coordinates may have any value in their ranges. So the ball\n"
+      "holds none of these configurations in any assembly or working mode within these ranges.\n\n"
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 the bounds hold, but are not as close as asked for.\n\n"
       "Examples:\n  corank clearance models/dextar.cuik --at J3x=0.5,J3y=1 --in J3x,J3y\n"
       "  corank clearance models/planar/3rpr.cuik --at pose_x=0.8,pose_y=0.5,pose_phi=0.1\\\n"

@@ -51,6 +51,7 @@ analyze::MapQuestion question_of(const MapCommand& command) {
   question.question = load(command.question);
   question.answer = *analyze::map_answer_from_string(command.count);
   QuestionOptions set = command.question;
+  set.require.clear();  // asked of each solution, whatever the set is
   const bool plain = question.question.model.is_plain_system();
   if (question.answer != analyze::MapAnswer::solutions && !set.set.empty())
     throw UsageError(fmt::format("--count {}: counts among all configurations; expected no --set beside it", command.count));
@@ -87,7 +88,7 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
 }
 
 ExitStatus write_map(const CLI::App& sub, MapCommand command) {
-  if (command.count != "solutions") refuse_without_effect(sub, {"--no-boundary"}, "--count solutions");
+  if (command.count != "solutions") refuse_without_effect(sub, {"--no-boundary", "--require"}, "--count solutions");
   command.json.give_back(command.question.file);
   command.json.check();
   const int n = command.options.resolution;
@@ -137,7 +138,8 @@ void add_map(CLI::App& program, Action& action) {
   CLI::App* sub = program.add_subcommand(
       "map", "Count solutions over a plane of two constants or coordinates, and prove the number cell by cell");
   const auto command = std::make_shared<MapCommand>();
-  command->question.add_options(*sub);
+  command->question.add_options(*sub, "Which configurations of a mechanism",
+                                "Each cell is proven to satisfy or to violate them, or left open");
   sub->add_option("--over", command->over,
                   "A constant or a coordinate (angles in radians) that runs from FROM to TO; required twice")
       ->type_name("NAME=FROM:TO")

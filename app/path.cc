@@ -98,6 +98,8 @@ ExitStatus path(PathCommand command) {
   if (command.avoid.empty()) command.avoid = command.question.require.empty() ? "forward" : "requirements";
   command.json.give_back(command.question.file);
   command.json.check();
+  if (!command.question.require.empty() && command.avoid != "requirements")
+    throw UsageError("--require: without effect; expected --avoid requirements, or no --avoid");
   LimitedRun run({.time = command.time_limit});
   solve::Control& control = run.control();
   const study::Question question = load(command.question);

@@ -17,7 +17,7 @@ std::vector<std::string> set_names(bool usual) {
   return names;
 }
 
-void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set) {
+void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set, const std::string& of_requirements) {
   add_model(sub);
   std::vector<std::string> sets = set_names();
   sets.emplace_back(kNodes);
@@ -41,7 +41,7 @@ void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set) {
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(sub);
   add_outputs(sub);
-  add_require(sub, "For --set requirements");
+  add_require(sub, of_requirements);
   add_definitions(sub);
 }
 
@@ -109,6 +109,9 @@ study::Question load(const QuestionOptions& options, std::set<std::string>* said
 }
 
 std::optional<symbolic::SingularitySet> chosen_set(const QuestionOptions& question, const symbolic::Mechanism& mechanism) {
+  const std::string of_requirements = symbolic::to_string(symbolic::SingularitySet::requirements);
+  if (!question.require.empty() && question.set != of_requirements)
+    throw UsageError("--require: without effect; expected --set " + of_requirements + " beside it");
   if (mechanism.is_plain_system()) {
     if (question.corank != 1) throw UsageError(fmt::format("{}: a plain system has no --corank", question.file));
     if (!question.kernel.empty()) throw UsageError(fmt::format("{}: a plain system has no --kernel", question.file));

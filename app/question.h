@@ -27,7 +27,8 @@ struct QuestionOptions {
 
   /// FILE, --loops, --set, --kernel, --corank, --require and -D. `of_set`: what the set is for, before the words that choose
   /// it.
-  void add_options(CLI::App& sub, const std::string& of_set = "Which configurations of a mechanism");
+  void add_options(CLI::App& sub, const std::string& of_set = "Which configurations of a mechanism",
+                   const std::string& of_requirements = "For --set requirements");
   /// FILE and --loops.
   void add_model(CLI::App& sub);
   void add_corank(CLI::App& sub);

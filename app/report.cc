@@ -111,6 +111,22 @@ std::vector<report::SetView> read_all(std::vector<std::string>& paths) {
   return views;
 }
 
+// To the sets, where nobody chose others.
+void add_requirements(const CLI::App& sub, ReportCommand& command, const symbolic::Mechanism& mechanism) {
+  const std::string set = symbolic::to_string(symbolic::SingularitySet::requirements);
+  const bool chosen = sub.count("--sets") > 0, asked = !command.question.require.empty();
+  if (chosen && asked && std::ranges::find(command.search.sets, set) == command.search.sets.end())
+    throw UsageError(fmt::format("--require: without effect; expected --sets {}", set));
+  if (chosen || mechanism.requirements().empty() || !command.results.empty()) return;
+  try {
+    symbolic::kernel_question(mechanism, symbolic::SingularitySet::requirements);
+    command.search.sets.push_back(set);
+  } catch (const symbolic::ModelError& error) {
+    if (asked) throw;
+    fmt::print(stderr, "corank: the page is without the set {}: {}\n", set, result::printable(error.what()));
+  }
+}
+
 ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   if (!command.results.empty())
     refuse_without_effect(sub,
@@ -132,8 +148,7 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   if (mechanism.is_plain_system())
     throw symbolic::ModelError({mechanism.name(), 0, 0}, "the model names no inputs and outputs",
                                "a mechanism, with [INPUTS] and [OUTPUTS]");
-  if (!mechanism.requirements().empty() && sub.count("--sets") == 0)
-    command.search.sets.emplace_back(symbolic::to_string(symbolic::SingularitySet::requirements));
+  add_requirements(sub, command, mechanism);
   if (command.folder.empty()) command.folder = mechanism.name() + "-report";
   const std::filesystem::path folder = command.folder;
   check_folder(folder);

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -43,7 +44,7 @@ std::optional<std::vector<double>> majorant(const std::vector<double>& e, std::v
   constexpr int kSteps = 100;
   constexpr double kLeast = 1e-12, kMore = 1.01;
   const double largest = t.empty() ? 0 : *std::ranges::max_element(t);
-  for (double& x : t) x = std::max(x, largest > 0 ? kLeast * largest : 1.0);
+  for (double& x : t) x = std::max(x, largest > 0 ? std::max(kLeast * largest, DBL_MIN) : 1.0);
   std::vector<double> u = t;
   for (int step = 0; step < kSteps; ++step) {
     std::vector<double> next = times(e, u);
@@ -165,7 +166,7 @@ Standing standing_of_form(const VelocityTest& test, const Kernel& kernel, Offset
 }
 
 Standing standing_of_groups(const VelocityTest& test, const Kernel& kernel, Offsets offsets) {
-  if (kernel.basis.size() != 1) return Standing::open;
+  if (kernel.basis.size() != 1 || !kernel.exact) return Standing::open;
   const std::vector<AffineForm>& v = kernel.basis[0];
   const AffineForm& last = v.back();
   AffineForm gap = zero(offsets.size());  // Σ weight·(e·V) − bound·s·V_last
@@ -202,7 +203,6 @@ Standing standing_of_groups(const VelocityTest& test, const Kernel& kernel, Offs
   const AffineForm sum = gap;
   gap.add(-(bound * Interval(sign)), last);  // |V_last| ≥ s·V_last
   if (gap.range(offsets).hi() + more.hi() < 0) return Standing::satisfied;
-  if (!kernel.exact) return Standing::open;
   const bool signed_end = sign > 0 ? end.lo() >= 0 : end.hi() <= 0;
   const Interval below = signed_end ? gap.range(offsets) : sum.range(offsets) - bound * Interval(end.mag());
   return (below + more).lo() > 0 ? Standing::violated : Standing::open;

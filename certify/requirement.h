@@ -19,7 +19,8 @@ using FormOfVariable = std::function<AffineForm(int variable)>;
 /// let u ≥ s + |E|·u, s ≥ |t| and s > 0. Then |E|·u < u, so A_D is regular, and V with V_F = I, V_D = −X, X = A_D⁻¹A_F, is a
 /// basis of ker A. Its column x = t + E·x is the limit of x ← t + E·x from 0, all of which are at most u; so x = t + E·t +
 /// E·E·x with |x| ≤ u. With affine forms for T the first two terms are exact to first order, and the last one is of second
-/// order. Of rows that are dependent some may be left out: the kernel is then larger, and what holds on it holds on ker A.
+/// order. Of rows that are dependent some may be left out: the kernel is then larger, and a form that is
+/// positive on it is positive on ker A; of groups nothing is said.
 /// Theorem (form): let Q(q) = Vᵀ·diag(form)·V and P real. Q is positive definite where PᵀQP has T_ii > Σ_{j≠i} |T_ij| in
 /// each row (Gershgorin; P is regular then, since PᵀQP is). Q is not where one T_ii < 0.
 /// Theorem (groups): ker A is the line of V. For any unit vector e, with a = e·V_g and b = ‖V_g − e·a‖: ‖V_g‖ = √(a² + b²) ≥

@@ -141,6 +141,7 @@ class MapCheck {
 
   // Of the sheet's zeros over these values of the parameters; x holds them, and is tightened.
   Standing standing_over(const Requirement& requirement, Sides& x) const {
+    if (problem_.contradiction()) return Standing::open;
     Krawczyk newton(problem_.equations(), problem_.size());
     if (!newton.set(unknowns_, x, Krawczyk::Center::polished) || !newton.shrink(x, newton.image(x))) return Standing::open;
     if (!newton.shrink(x, newton.image(x))) return Standing::open;

@@ -1,6 +1,7 @@
 #include "corank/check/requirement.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <optional>
 
@@ -29,7 +30,7 @@ std::vector<double> majorant(const std::vector<double>& e, std::vector<double> t
   constexpr int kSteps = 100;
   double greatest = 0;
   for (const double x : t) greatest = std::max(greatest, x);
-  for (double& x : t) x = std::max(x, greatest > 0 ? 1e-12 * greatest : 1.0);
+  for (double& x : t) x = std::max(x, greatest > 0 ? std::max(1e-12 * greatest, DBL_MIN) : 1.0);
   std::vector<double> u = t;
   for (int step = 0; step < kSteps; ++step) {
     std::vector<double> next = pushed(e, u);
@@ -157,7 +158,7 @@ class VelocityCheck {
   }
 
   Standing compare_groups() const {
-    if (kernel_.size() != 1) return Standing::open;
+    if (kernel_.size() != 1 || !all_rows_) return Standing::open;
     const Vector& v = kernel_[0];
     Form sum = zero();     // Σ weight·(e·V), e a vector for each group
     Enclosure difference;  // of Σ weight·‖V‖ from it
@@ -170,7 +171,7 @@ class VelocityCheck {
       Form along = zero();
       Enclosure length, across;
       for (std::size_t k = 0; k < e.size(); ++k) {
-        if (norm > 0) e[k] /= norm;
+        e[k] = norm > 0 ? e[k] / norm : 0;
         along.add_multiple(Enclosure(e[k]), v[g.columns[k]]);
         length += power(Enclosure(e[k]), 2);
       }
@@ -191,7 +192,6 @@ class VelocityCheck {
     Form gap = sum;
     gap.add_multiple(-(bound * sign), v.back());
     if ((gap.range(offsets_) + difference).is_negative()) return Standing::satisfied;
-    if (!all_rows_) return Standing::open;
     const bool signed_end = (sign * last).is_nonnegative();
     const Enclosure least =
         (signed_end ? gap.range(offsets_) : sum.range(offsets_) - bound * Enclosure(last.mag())) + difference;

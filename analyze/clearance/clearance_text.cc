@@ -34,7 +34,7 @@ std::string required_lines(const study::Question& q) {
   std::string text;
   if (!symbolic::definition(q.set).of_requirements) return text;
   for (const std::string& r : q.model.requirement_texts()) text += fmt::format("required: {}\n", r);
-  return text;
+  return text + "what is met at the centre is met all over the ball; whether it is met there is not examined\n";
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ std::string to_table(const ParameterMap& map) {
     };
     line("satisfied", Standing::satisfied, ", proven for every solution there");
     line("violated", Standing::violated, ", proven for a solution at every place there");
-    line("open", Standing::open, " without what has no solutions");
+    line("open", Standing::open, ", where solutions may be");
   }
   text += fmt::format("  {:<22}{} ({} proven, {} undecided{}{}), {} boxes processed\n", "cells", map.cells.size(),
                       cells_of(map, MapCellAnswer::Kind::proven), cells_of(map, MapCellAnswer::Kind::undecided),

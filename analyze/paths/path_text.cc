@@ -64,12 +64,16 @@ std::string to_text(const PathFinder& finder, const Path& path) {
                  : path.status == Path::Status::separated ? "separated: it is proven that no such path exists"
                                                           : "unknown");
   if (!path.reason.empty()) line("", path.reason);
-  if (path.standing) {
-    for (const std::string& r : finder.question().model.requirement_texts()) line("required", r);
-    const char* const where = path.tube ? "on the whole path" : "at the start";
-    line("", *path.standing == Standing::satisfied  ? fmt::format("met {}, proven", where)
-             : *path.standing == Standing::violated ? fmt::format("not met {}, proven", where)
-                                                    : "whether it is met is not known");
+  if (finder.options().avoid == Avoid::requirements) {
+    const std::vector<std::string> required = finder.question().model.requirement_texts();
+    for (const std::string& r : required) line("required", r);
+    const char* const where = path.tube ? "all along the path" : "at the start";
+    line("", !path.standing ? "whether it is met is not examined where constants have tolerances"
+             : *path.standing == Standing::satisfied
+                 ? fmt::format("{}met {}, proven", required.size() == 1 ? "" : "all of them ", where)
+             : *path.standing == Standing::violated
+                 ? fmt::format("{}violated {}, proven", required.size() == 1 ? "" : "one of them ", where)
+                 : "whether it is met is not known");
   }
   if (path.tube) {
     line("radius", radius_text(finder.system(), *path.tube));

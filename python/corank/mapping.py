@@ -195,6 +195,8 @@ def map(
     """
     if certificate and (count != "solutions" or client is not None):
         raise ValueError('certificate: expected count="solutions" and no client')
+    if require is not None and count != "solutions":
+        raise ValueError('require: expected count="solutions"')
     if require is not None:
         self = self.with_requirements(*([require] if isinstance(require, str) else require))
     core = _corank.ParameterMap(

@@ -111,7 +111,7 @@ bool moves(const symbolic::Mechanism& mechanism) {
 /// can be drawn.
 Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
   Json columns = Json::array();
-  if (view.result.options.kernel != to_string(symbolic::KernelSide::right)) return columns;
+  if (view.result.options.kernel != to_string(symbolic::KernelSide::right) || view.set->of_requirements) return columns;
   const bool given = derivation.velocity.given;
   if (given && !moves(mechanism)) return columns;
   for (const std::string& name : derivation.velocity.without(view.set->locked).columns)

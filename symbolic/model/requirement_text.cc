@@ -1,6 +1,7 @@
 #include "corank/symbolic/model/requirement_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <tao/pegtl.hpp>
 #include <type_traits>
 
@@ -99,7 +100,7 @@ struct RequirementAction : ExpressionAction<Rule> {};
 CORANK_ACTION(quantity_unit, {
   b.unit.clear();
   for (const char c : in.string())
-    if (c != ' ' && c != '\t' && c != '*') {
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
       if (b.unit.ends_with('N')) b.unit += ' ';
       b.unit += c;
     }

@@ -52,7 +52,7 @@ constexpr std::array<SetDefinition, 18> kSets{{
     of_type(kInverse, SingularitySet::ri, "ri", KernelSide::right, SingularityType::ri),
     of_type(kInverse, SingularitySet::io, "io", KernelSide::left, SingularityType::io),
     of_type(kCspaceSingular, SingularitySet::iim, "iim", KernelSide::left, SingularityType::iim),
-    {.set = SingularitySet::requirements, .name = "requirements", .matrix = "R", .locked = kInput, .of_requirements = true},
+    {.set = SingularitySet::requirements, .name = "requirements", .matrix = "R", .of_requirements = true},
     part_of(kForward, SingularitySet::forward_cusps, "forward-cusps", LocusPart::cusps),
     part_of(kInverse, SingularitySet::inverse_cusps, "inverse-cusps", LocusPart::cusps),
     part_of(kForward, SingularitySet::forward_nodes, "forward-nodes", LocusPart::nodes),

@@ -60,7 +60,7 @@ struct SetDefinition {
 
   /// Its result consists of parts, each the solutions of a system of its own (boundary.h).
   bool of_parts = false;
-  /// M is that of a companion of the mechanism (requirements.h).
+  /// M is the forward one of a companion of the mechanism (requirements.h), whose rates are none of its own.
   bool of_requirements = false;
 
   /// Is it all configurations where M has a kernel, whose side and corank can be asked for?

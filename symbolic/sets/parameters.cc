@@ -223,6 +223,9 @@ std::vector<int> mark_parameters(const ParametricSystem& system, System& polynom
 FamilySystem family_system(const Mechanism& mechanism, const FamilyQuestion& question) {
   const Requirements requirements(mechanism, names_of(question.over));
   TrigonometricSystem equations = equations_of(mechanism, question);
+  if (!mechanism.requirements().empty() && definition(question.set).part == LocusPart::nodes)
+    throw ModelError({mechanism.name(), 0, 0}, "requirements are asked of one configuration, not of pairs",
+                     "a model without requirements, or another set");
   requirements.add_to(equations);
   const ParametricSystem parametric = with_parameters(mechanism, std::move(equations), question.over, question.fixed);
   FamilySystem family{algebrize(parametric.system), {}, parametric.copies};

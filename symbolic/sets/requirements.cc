@@ -106,12 +106,28 @@ class Translator {
     if (velocity().roles[found] == Role::input) refuse(in_quotes(name) + " is an input", "coordinates that motors move");
     return found;
   }
+  // An angle that counts as a length, where a ball is about its values (Mechanism::unroll).
+  bool is_in_sines_alone(const std::string& name) const {
+    bool some = false;
+    const auto outside = [&](const auto& self, const Expression& e, bool inside) -> bool {
+      if (e.kind() == Expression::Kind::symbol && e.name() == name) {
+        some = true;
+        return !inside;
+      }
+      const bool sine = e.kind() == Expression::Kind::function && (e.name() == "sin" || e.name() == "cos");
+      return std::ranges::any_of(e.operands(), [&](const Expression& x) { return self(self, x, inside || sine); });
+    };
+    for (const Constraint& c : mechanism_.equations())
+      if (outside(outside, c.relation.lhs, false) || outside(outside, c.relation.rhs, false)) return false;
+    return some;
+  }
   Dimension dimension(std::size_t column) {
     const std::string& name = velocity().columns[column];
     const int rate = mechanism_.find_rate(name), coordinate = mechanism_.find_coordinate(name);
-    if (rate < 0 && mechanism_.coordinates()[coordinate].direction) return Dimension::angle;  // it has no unit either
-    const CoordinateKind kind = rate >= 0 ? mechanism_.rates()[rate].kind : mechanism_.coordinates()[coordinate].kind;
-    return kind == CoordinateKind::angle ? Dimension::angle : Dimension::length;
+    if (rate >= 0) return mechanism_.rates()[rate].kind == CoordinateKind::angle ? Dimension::angle : Dimension::length;
+    const Coordinate& c = mechanism_.coordinates()[coordinate];
+    if (c.direction) return Dimension::number;
+    return c.kind == CoordinateKind::angle || is_in_sines_alone(name) ? Dimension::angle : Dimension::length;
   }
 
   bool depends_on_parameter(const Expression& e) const {
@@ -127,7 +143,7 @@ class Translator {
       const Unit* model = find(kLengths, own);
       if (!model)
         refuse(own.empty() ? "the model has no unit of lengths" : "the model's unit of lengths is " + own,
-               "`unit mm` in [DRAWING], or limits without a unit of length");
+               "a model with a line such as `unit mm`, or limits without a unit of length");
       return Expression(u.size) / Expression(model->size);
     };
     const auto check = [&](Dimension d) {
@@ -143,7 +159,10 @@ class Translator {
     }
     check(Dimension::moment);
     const std::size_t blank = unit.find(' ');
-    return Expression(find(kOthers, unit.substr(0, blank))->size) * length(*find(kLengths, unit.substr(blank + 1)));
+    const Unit* const force = find(kOthers, unit.substr(0, blank));
+    const Unit* const arm = find(kLengths, unit.substr(blank + 1));
+    CORANK_CHECK(force && arm);  // the grammar knows no other
+    return Expression(force->size) * length(*arm);
   }
 
   Expression in_model_units(const Quantity& quantity, Dimension wanted) const {
@@ -198,22 +217,26 @@ class Translator {
       if (velocity().roles[c] == Role::passive) refuse(in_quotes(name) + " is neither input nor output", "one that is");
       sizes[c] = positive(quantity, dimension(c));
     }
-    std::array<std::array<bool, 2>, 2> has{};  // of the other role, of this one: angles, lengths
+    std::array<std::array<bool, 3>, 2> has{};  // of the other role, of this one: numbers, lengths, angles
     for (std::size_t c = 0; c < n; ++c)
       if (velocity().roles[c] != Role::passive)
-        has[velocity().roles[c] == limit.role][dimension(c) == Dimension::length] = true;
-    for (const auto& [angles, lengths] : has)
-      if (!angles && !lengths) refuse("the model has no inputs or no outputs", "both");
+        has[velocity().roles[c] == limit.role][static_cast<std::size_t>(dimension(c))] = true;
+    const auto kinds = [&](bool of_role) { return std::ranges::count(has[of_role], true); };
+    if (kinds(false) == 0 || kinds(true) == 0) refuse("the model has no inputs or no outputs", "both");
     std::vector<Column> columns;
     std::vector<Expression> form;
     for (std::size_t c = 0; c < n; ++c) {
       columns.push_back(whole(c));
       const Role role = velocity().roles[c];
       const bool of_role = role == limit.role;
-      if (role != Role::passive && !sizes[c] && has[of_role][0] && has[of_role][1])
-        refuse(std::string("the ") + to_string(role) + "s are lengths and angles, and " + in_quotes(velocity().columns[c]) +
+      if (role != Role::passive && !sizes[c] && kinds(of_role) > 1)
+        refuse(std::string("the ") + to_string(role) + "s have different units, and " + in_quotes(velocity().columns[c]) +
                    " has no metric",
-               "metric " + velocity().columns[c] + (dimension(c) == Dimension::angle ? ": 1 deg" : ": 1 mm") + ", …");
+               "metric " + velocity().columns[c] +
+                   (dimension(c) == Dimension::angle    ? ": 1 deg"
+                    : dimension(c) == Dimension::length ? ": 1 mm"
+                                                        : ": 1") +
+                   ", …");
       const Expression size = sizes[c] ? *sizes[c] * *sizes[c] : Expression(1);
       form.push_back(role == other ? most * most / size : of_role ? -(Expression(1) / size) : Expression(0));
     }
@@ -224,19 +247,17 @@ class Translator {
   void add(const EffortLimit& limit, Conditions& out) {
     const std::size_t motor = column(limit.motor, Role::input);
     const bool turns = dimension(motor) == Dimension::angle;
-    if (turns != limit.torque)
-      refuse(in_quotes(limit.motor) + (turns ? " is an angle" : " is a length"), turns ? "torque" : "force");
+    if (turns != limit.torque) refuse(in_quotes(limit.motor) + " is " + word(dimension(motor)), turns ? "torque" : "force");
     std::vector<Column> columns;
     const std::vector<int> place = without_inputs(columns);
     columns.push_back(whole(motor));
-    VelocityCondition of_motor = condition(columns);
+    VelocityCondition of_motor = on_a_line(columns);
     for (const Load& load : limit.loads) {
       VelocityCondition::Group group;
       for (const std::string& name : load.names) {
         const std::size_t c = driven_column(name);
-        if ((dimension(c) == Dimension::angle) != load.moment)
-          refuse(in_quotes(name) + (load.moment ? " is a length" : " is an angle"),
-                 load.moment ? "a force on it" : "a moment on it");
+        if (dimension(c) != (load.moment ? Dimension::angle : Dimension::length))
+          refuse(in_quotes(name) + " is " + word(dimension(c)), load.moment ? "a moment on angles" : "a force on lengths");
         add_column(name, place[c], group);
       }
       group.weight = checked(in_model_units(load.most, load.moment ? Dimension::moment : Dimension::force), 0);
@@ -258,7 +279,7 @@ class Translator {
     const Dimension of = dimension(column(limit.names[0]));
     for (const std::string& name : limit.names) {
       const std::size_t c = driven_column(name);
-      if (dimension(c) != of) refuse("the error of lengths and angles together", "a requirement for each");
+      if (dimension(c) != of) refuse("an error in different units", "a requirement for each");
       add_column(name, place[c], group);
     }
     std::vector<std::optional<Expression>> most(place.size());
@@ -276,7 +297,7 @@ class Translator {
         together.parts.emplace_back(inputs[k], (corner >> k & 1) != 0 ? -*most[inputs[k]] : *most[inputs[k]]);
       std::vector<Column> all = columns;
       all.push_back(std::move(together));
-      VelocityCondition at_corner = condition(all);
+      VelocityCondition at_corner = on_a_line(all);
       at_corner.groups.push_back(group);
       at_corner.bound = bound;
       out.of_velocities.push_back(std::move(at_corner));
@@ -286,6 +307,16 @@ class Translator {
   void add(const Relation& relation, Conditions& out) const {
     const bool at_most = relation.kind == Relation::Kind::less_equal;
     out.excess = at_most ? relation.lhs - relation.rhs : relation.rhs - relation.lhs;
+  }
+
+  // The same, for one velocity but for its size: locked motors leave the mechanism no freedom, and one more motor moves it.
+  VelocityCondition on_a_line(const std::vector<Column>& columns) {
+    VelocityCondition result = condition(columns);
+    if (result.rows.size() + 1 != columns.size())
+      refuse("the mechanism with all motors locked has " +
+                 std::string(result.rows.size() + 1 < columns.size() ? "a freedom left" : "more equations than unknowns"),
+             "as many inputs as the mobility");
+    return result;
   }
 
   // Appends the columns but the inputs', and says where each is; −1: an input's.
@@ -328,8 +359,13 @@ class LimitMechanism {
         out_.velocity(times(*conditions.excess, rate(CoordinateKind::length)) == Expression(0), line.where);
     }
     // As many locked rates, which do nothing, as the mechanism has freedom.
-    const std::size_t mobility = mechanism_.coordinates().size() - mechanism_.equations().size();
-    for (std::size_t k = 0; k < mobility; ++k) rate(CoordinateKind::length, Role::input);
+    const std::size_t coordinates = mechanism_.coordinates().size(), equations = mechanism_.equations().size();
+    if (coordinates <= equations)
+      throw ModelError(model_place(mechanism_),
+                       "the model has " + counted(coordinates, "coordinate") + " and " + counted(equations, "equation") +
+                           ", so nothing moves",
+                       "fewer equations than coordinates");
+    for (std::size_t k = 0; k < coordinates - equations; ++k) rate(CoordinateKind::length, Role::input);
     return std::move(out_);
   }
 

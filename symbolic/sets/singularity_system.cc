@@ -304,8 +304,10 @@ KernelQuestion kernel_question(const Mechanism& of, SingularitySet set, std::opt
   const SetDefinition& asked = definition(set);
   const Mechanism mechanism = asked.of_requirements ? at_requirements(of) : of;
   const VelocityEquation velocity = derive(mechanism).velocity;
-  const char* const name = velocity.given && asked.locked.empty() ? "L" : asked.matrix;
-  KernelQuestion kernel = question_of(mechanism, velocity, asked, asked.locked, name, side);
+  constexpr std::array kInputs{Role::input};
+  const std::span<const Role> locked = asked.of_requirements ? std::span<const Role>(kInputs) : asked.locked;
+  const char* const name = velocity.given && locked.empty() ? "L" : asked.matrix;
+  KernelQuestion kernel = question_of(mechanism, velocity, asked, locked, name, side);
   if (!asked.also_locked.empty())
     kernel.also.push_back(question_of(mechanism, velocity, asked, asked.also_locked, asked.also_matrix, std::nullopt));
   return kernel;

@@ -77,7 +77,7 @@ TEST(MapCommand, ProvesWhereRequirementsAreMet) {
 
   const auto of_lengths = with({"--require", "torque(theta2) <= 3 N m under moment(J3x) <= 1"});
   EXPECT_EQ(of_lengths.status, 1);
-  EXPECT_THAT(of_lengths.err, HasSubstr("'J3x' is a length; expected a force on it"));
+  EXPECT_THAT(of_lengths.err, HasSubstr("'J3x' is a length; expected a moment on angles"));
   const auto unfinished = with({"--require", "amplification(outputs) <="});
   EXPECT_EQ(unfinished.status, 1);
   EXPECT_THAT(unfinished.err, HasSubstr("requirement:1:26: "));

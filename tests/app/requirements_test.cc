@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "corank/tests/app/program.h"
 #include "corank/tests/seeds.h"
 
@@ -32,12 +34,36 @@ TEST(RequirementCommands, EncloseWhereOneIsAtItsLimit) {
   EXPECT_THAT(none.err, HasSubstr("the model has no requirements"));
 }
 
+TEST(RequirementCommands, RefuseWhatHasNoEffect) {
+  const auto refusal = [](std::vector<std::string> command) {
+    command.insert(command.end(), {"--require", kRequired});
+    const auto run = run_corank(command);
+    EXPECT_EQ(run.status, 2) << run.out;
+    return run.err;
+  };
+  EXPECT_THAT(refusal({"solve", model("dextar"), "--set", "forward"}), HasSubstr("--require: without effect"));
+  EXPECT_THAT(refusal({"clearance", model("dextar"), "--set", "inverse", "--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y"}),
+              HasSubstr("--require: without effect"));
+  EXPECT_THAT(refusal({"path", model("dextar"), "--avoid", "forward", "--from", "J3x=0.5,J3y=1", "--to", "J3x=0.5,J3y=1"}),
+              HasSubstr("--require: without effect"));
+  EXPECT_THAT(refusal({"report", model("dextar"), "--sets", "forward"}), HasSubstr("--require: without effect"));
+  EXPECT_THAT(refusal({"map", model("three_slider"), "--over", "L1=1:2", "--over", "L2=1/2:9/10", "--count", "aspects"}),
+              HasSubstr("--require"));
+}
+
+TEST(RequirementCommands, AreOnAPage) {
+  const TemporaryFolder folder;
+  const auto run = run_corank({"report", model("dextar"), "--require", kRequired, "-o", folder.file("page")});
+  EXPECT_THAT(run.out, HasSubstr("Limits of requirements: ")) << run.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("page/requirements.h5")));
+}
+
 TEST(RequirementCommands, BoundHowFarThatIs) {
   const TemporaryFolder folder;
   const auto run = run_corank({"clearance", model("dextar"), "--require", kRequired, "--at", "J3x=0.59,J3y=0.55", "--in",
                                "J3x,J3y", "--proof", folder.file("c")});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("required: amplification(outputs) <= 2\nradius in [0.066"));
+  EXPECT_THAT(run.out, HasSubstr("whether it is met there is not examined\nradius in [0.066"));
   EXPECT_THAT(run.out, HasSubstr("it is proven that no limit of a requirement is nearer than the lower bound"));
   expect_verified(folder.file("c-free.h5"));
   expect_verified(folder.file("c-nearest.h5"), 4);
@@ -56,7 +82,7 @@ TEST(RequirementCommands, FindPathsThatKeepFromThere) {
   const auto verify = run_corank({"verify", file});
   EXPECT_EQ(verify.status, 0) << verify.out;
   EXPECT_THAT(verify.out, StartsWith("dextar: a path without limits of requirements\n"));
-  EXPECT_THAT(near.out, HasSubstr("met on the whole path, proven"));
+  EXPECT_THAT(near.out, HasSubstr("met all along the path, proven"));
   // There the end is faster in that posture.
   EXPECT_THAT(path("0.75", "3").out, HasSubstr("separated: it is proven that no such path exists"));
 }

@@ -145,6 +145,7 @@ TEST(Requirements, AreRefusedWhereTheyMeanNothing) {
   EXPECT_THAT(refusal(dextar(), "amplification(outputs) <= 2*l2", {"l"}), HasSubstr("depends on a parameter"))
       << "through another constant";
   EXPECT_THAT(refusal(rrr(), "amplification(outputs) <= 1"), HasSubstr("expected metric"));
+  EXPECT_THAT(refusal(rrr(), "amplification(outputs) <= 1 metric x: 1, y: 1"), HasSubstr("'phi' has no metric"));
   EXPECT_THAT(refusal(rrr(), "error(x, phi) <= 1 under inputs <= 1"), HasSubstr("a requirement for each"));
   EXPECT_THAT(refusal(rrr(), "error(x) <= 1 mm under inputs <= 1"), HasSubstr("unit"));
   EXPECT_THAT(refusal(parse_model("[SYSTEM VARS]\nx : [0, 1]\n[SYSTEM EQS]\nx^2 = x;", "m"), "amplification(outputs) <= 1"),
@@ -187,6 +188,27 @@ TEST(Requirements, ReachTheirLimitsOnASet) {
   EXPECT_EQ(matrix("x <= 1/4").rows.size(), 1u);
   EXPECT_EQ(matrix("x <= 1/4").rows[0][0].text(), "-0.25 + x");
   EXPECT_THROW(kernel_question(model, SingularitySet::requirements), ModelError) << "there are none";
+}
+
+// Three motors for two freedoms: the loads do not say what each of them does. And equations that leave no freedom.
+TEST(Requirements, OfMotorsThatTheLoadsDoNotDetermineAreRefused) {
+  Mechanism more = dextar();
+  more.inputs({Expression("theta3")});
+  EXPECT_THAT(refusal(more, "torque(theta2) <= 1 under force(J3x) <= 1"), HasSubstr("as many inputs as the mobility"));
+  EXPECT_EQ(refusal(more, "amplification(outputs) <= 1"), "none");
+  const Mechanism stuck = parse_model(
+      "[SYSTEM VARS]\nx : [-2, 2]\nu ~ [-pi, pi]\n[SYSTEM EQS]\nx = cos(u);\nx = sin(u);\nx^2 = 1/2;\n"
+      "[INPUTS] u\n[OUTPUTS] x\n[REQUIREMENTS]\nx <= 1;\n",
+      "m.cuik");
+  EXPECT_THROW(kernel_question(stuck, SingularitySet::requirements), ModelError);
+}
+
+// As where a ball is about its values.
+TEST(Requirements, KnowAnAngleThatCountsAsALength) {
+  Mechanism model = rrr();
+  model.unroll("phi", -1, 1);
+  EXPECT_EQ(refusal(model, "amplification(outputs) <= 1 metric x: 1, y: 1, phi: 1 deg"), "none");
+  EXPECT_EQ(refusal(model, "torque(theta1) <= 1 under moment(phi) <= 1"), "none");
 }
 
 TEST(Requirements, OfSeveralLoadsHaveNoSet) {
