@@ -8,6 +8,7 @@
 #include "corank/analyze/clearance/best_center.h"
 #include "corank/analyze/clearance/clearance.h"
 #include "corank/analyze/clearance/clearance_map.h"
+#include "corank/analyze/paths/path.h"
 #include "corank/app/box_files.h"
 #include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
@@ -153,6 +154,18 @@ bool write_claims(const ClearanceCommand& command, const analyze::Clearance& cle
   return is_free && nearest;
 }
 
+// Of the configurations with the values of --at, where these leave no motion: do they meet the requirements?
+std::vector<Standing> postures_of(ClearanceRun& run) {
+  std::vector<Standing> result;
+  if (!symbolic::definition(run.question.set).of_requirements || !run.question.model.toleranced().empty()) return result;
+  try {
+    const analyze::PathFinder finder(run.question, {.avoid = analyze::Avoid::requirements});
+    for (const Box& box : finder.ends(run.ball.at, run.control())) result.push_back(finder.standing(box));
+  } catch (const analyze::EndError&) {
+  }
+  return result;
+}
+
 ExitStatus run_clearance(ClearanceCommand command) {
   if (command.at.empty()) throw UsageError("--at is required, except with --best or --map");
   if (command.in.empty()) throw UsageError("--in is required, except with --best or --map");
@@ -164,7 +177,8 @@ ExitStatus run_clearance(ClearanceCommand command) {
     check_output(nearest_file(command));
   }
   const analyze::ClearanceOptions options{.precision = command.precision, .progress = shown_radius(run.line, "boxes")};
-  const analyze::Clearance clearance = analyze::clearance(run.question, run.ball, options, run.search, run.control());
+  analyze::Clearance clearance = analyze::clearance(run.question, run.ball, options, run.search, run.control());
+  clearance.postures = postures_of(run);
   run.line.show("writing what corank verify checks");
   const bool proven = write_claims(command, clearance, run.search, run.control());
   run.line.clear();

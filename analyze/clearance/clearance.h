@@ -10,6 +10,7 @@
 
 #include "corank/analyze/clearance/ball.h"
 #include "corank/analyze/sets/nearest.h"
+#include "corank/core/requirement.h"
 #include "corank/result/values/result.h"
 
 namespace corank::analyze {
@@ -39,7 +40,9 @@ struct Clearance {
   std::vector<CoordinateValue> values;                    ///< of the nearest proven singularity: the model's coordinates
   std::vector<CoordinateValue> robot;                     ///< that has it: its constants, those with a tolerance
   std::vector<std::pair<std::string, double>> seemingly;  ///< of a nearer point where nothing could be proven; no claim
-  std::string stopped;                                    ///< what ended the search early; empty: nothing
+  /// Of each configuration at the centre, where that was examined: does it meet the requirements whose limits are avoided?
+  std::vector<Standing> postures{};
+  std::string stopped;  ///< what ended the search early; empty: nothing
   double seconds = 0;
 
   /// No singularity among the configurations in question is nearer: where there is none at all, the ball's room, which may

@@ -1,6 +1,7 @@
 // A clearance and the best centre, in words and as JSON.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -34,7 +35,7 @@ std::string required_lines(const study::Question& q) {
   std::string text;
   if (!symbolic::definition(q.set).of_requirements) return text;
   for (const std::string& r : q.model.requirement_texts()) text += fmt::format("required: {}\n", r);
-  return text + "what is met at the centre is met all over the ball; whether it is met there is not examined\n";
+  return text;
 }
 
 }  // namespace
@@ -47,6 +48,12 @@ std::string to_table(const Clearance& c) {
   const Nearest& n = c.nearest;
   const std::string what = what_of(c.ball.question);
   text += required_lines(c.ball.question);
+  if (!c.postures.empty())
+    text += fmt::format(
+        "configurations at the centre: {}; proven to meet what is required: {}, not to meet it: {}; "
+        "no motion within the ball changes that\n",
+        c.postures.size(), std::ranges::count(c.postures, Standing::satisfied),
+        std::ranges::count(c.postures, Standing::violated));
   if (const auto toleranced = c.ball.question.model.toleranced(); !toleranced.empty())
     text += fmt::format("for every robot within the tolerance{} of {}\n", toleranced.size() == 1 ? "" : "s",
                         fmt::join(toleranced, ", "));
@@ -107,6 +114,9 @@ std::string to_json(const Clearance& c) {
   }
   constexpr std::array kCenters{"assembled", "not assembled", "unknown"};
   json["center"] = kCenters.at(static_cast<std::size_t>(c.center));
+  if (!c.postures.empty())
+    for (const Standing s : {Standing::satisfied, Standing::violated, Standing::open})
+      json["postures"][to_string(s)] = std::ranges::count(c.postures, s);
   json["complete"] = n.complete;
   json["stopped"] = or_null(c.stopped);
   json["precision"] = c.precision;

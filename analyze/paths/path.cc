@@ -329,9 +329,13 @@ std::vector<PathFinder::Sign> PathFinder::signs(const Box& box) const {
 
 Path PathFinder::find(const Box& from, const Box& to, solve::Control& control) {
   Path path = search_->find(from, to, control);
-  if (options().avoid == Avoid::requirements && question().model.toleranced().empty())
-    path.standing = standing_in(question().model, study::equations(question()), from);
+  if (options().avoid == Avoid::requirements && question().model.toleranced().empty()) path.standing = standing(from);
   return path;
+}
+
+Standing PathFinder::standing(const Box& end) const {
+  if (!question().model.toleranced().empty()) return Standing::open;
+  return standing_in(question().model, study::equations(question()), end);
 }
 
 Box PathFinder::end(const std::vector<NamedValue>& values, int mode, const std::string& option,

@@ -77,6 +77,9 @@ class PathFinder {
   Box end(const std::vector<NamedValue>& values, int mode, const std::string& option, solve::Control& control) const;
   static constexpr double kNear = 0.01;
 
+  /// Does the configuration in the box meet the requirements? open also where constants have tolerances.
+  Standing standing(const Box& end) const;
+
   Path find(const Box& from, const Box& to, solve::Control& control);
 
   /// In the box: the signs that separate configurations, 0 where one is not proven.

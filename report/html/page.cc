@@ -86,6 +86,8 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["constraints"] = std::to_string(derivation.phi.size());
   page["mobility"] = std::to_string(mechanism.coordinates().size() - derivation.phi.size());
   page["constants"] = constants_html(mechanism);
+  page["required"] = if_any(result::joined(
+      mechanism.requirement_texts(), [](const std::string& text) { return symbolic::html_text(text); }, "<br>"));
   page["found"] = if_any(views.empty() ? "" : found_html(views.front().result));
   page["overridden"] = if_any(views.empty() ? "" : overridden_html(views.front().result));
   page["cut"] = if_any(fixed_html(mechanism));

@@ -63,7 +63,7 @@ TEST(RequirementCommands, BoundHowFarThatIs) {
   const auto run = run_corank({"clearance", model("dextar"), "--require", kRequired, "--at", "J3x=0.59,J3y=0.55", "--in",
                                "J3x,J3y", "--proof", folder.file("c")});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("whether it is met there is not examined\nradius in [0.066"));
+  EXPECT_THAT(run.out, HasSubstr("no motion within the ball changes that\nradius in [0.066"));
   EXPECT_THAT(run.out, HasSubstr("it is proven that no limit of a requirement is nearer than the lower bound"));
   expect_verified(folder.file("c-free.h5"));
   expect_verified(folder.file("c-nearest.h5"), 4);
