@@ -1,4 +1,5 @@
-// Requirements over a plane, against kinematics of their own: no cell claims what a random place contradicts. Their files.
+// Requirements over a plane and in balls, against kinematics of their own: nothing is claimed that a random place, or a random
+// robot within tolerances, contradicts. The files of maps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <optional>
 #include <random>
 
+#include "corank/analyze/clearance/clearance.h"
 #include "corank/tests/analyze/map_files.h"
 #include "corank/tests/seeds.h"
 
@@ -46,9 +48,10 @@ std::vector<MatrixXd> postures(const std::vector<Leg>& legs, double crank, doubl
   return result;
 }
 
-std::vector<MatrixXd> dextar_postures(double x, double y) {
-  return postures({{{1.18, 0}, {0, 0}}, {{0, 0}, {0, 0}}}, 0.9, 0.9, x, y);  // theta2 is the one at (d, 0)
+std::vector<MatrixXd> five_bar_postures(double x, double y, double l, double d) {
+  return postures({{{d, 0}, {0, 0}}, {{0, 0}, {0, 0}}}, l, l, x, y);  // theta2 is the one at (d, 0)
 }
+std::vector<MatrixXd> dextar_postures(double x, double y) { return five_bar_postures(x, y, 0.9, 1.18); }
 std::vector<MatrixXd> rrr_postures(double x, double y) {
   const double h = std::sqrt(3) / 2;
   return postures({{{0, 0}, {0, 0}}, {{2, 0}, {0.5, 0}}, {{1, 2 * h}, {0.25, 0.5 * h}}}, 1, 1, x, y);
@@ -74,22 +77,23 @@ MapQuestion dextar_question(const char* require) {
           .over = {{"J3x", "-1/4", "1"}, {"J3y", "-1/2", "3/2"}}};
 }
 
+double amplification(const MatrixXd& j) { return Eigen::JacobiSVD<MatrixXd>(j).singularValues()(0); }
+
 std::vector<RequiredCase> required_cases() {
   const auto error = [](const MatrixXd& j) {
     return 0.01 * std::max((j * Vector2d(1, 1)).norm(), (j * Vector2d(1, -1)).norm());
   };
-  const auto largest = [](const MatrixXd& j) { return Eigen::JacobiSVD<MatrixXd>(j).singularValues()(0); };
   MapQuestion rrr{.question = required(model_question("3rrr.cuik", SingularitySet::cspace),
                                        {"amplification(outputs) <= 3 metric x: 1, y: 1, phi: 1"}),
                   .over = {{"x", "1/4", "5/4"}, {"y", "0", "1"}},
                   .fixed = {{"phi", "0"}}};
-  return {{"amplification of outputs", dextar_question("amplification(outputs) <= 2"), dextar_postures, largest, 2},
+  return {{"amplification of outputs", dextar_question("amplification(outputs) <= 2"), dextar_postures, amplification, 2},
           {"amplification of inputs", dextar_question("amplification(inputs) <= 2"), dextar_postures,
-           [&](const MatrixXd& j) { return largest(j.inverse()); }, 2},
+           [&](const MatrixXd& j) { return amplification(j.inverse()); }, 2},
           {"torque", dextar_question("torque(theta2) <= 3 N m under force(J3x, J3y) <= 20 N"), dextar_postures,
            [](const MatrixXd& j) { return 20 * j.col(0).norm(); }, 30},
           {"error", dextar_question("error(J3x, J3y) <= 4 mm under inputs <= 0.01"), dextar_postures, error, 0.04},
-          {"three legs", rrr, rrr_postures, largest, 3}};
+          {"three legs", rrr, rrr_postures, amplification, 3}};
 }
 
 const MapCellAnswer* cell_at(const ParameterMap& map, double x, double y) {
@@ -135,6 +139,40 @@ TEST(RequiredMap, ClaimsNothingThatAPlaceContradicts) {
     double all = map.shares()[0];
     for (const Standing s : {Standing::satisfied, Standing::violated, Standing::open}) all += map.share_where(s);
     EXPECT_NEAR(all, 1, 1e-9);
+  }
+}
+
+// All postures of the robot as drawn meet it at the centre, so those of every robot do all over the ball.
+TEST(RequiredBall, HoldsForEveryRobotWithinTolerances) {
+  for (const double tolerance : {0.0, 0.001, 0.01}) {
+    study::Question question =
+        required(model_question("dextar.cuik", SingularitySet::requirements), {"amplification(outputs) <= 2"});
+    const std::string limits = " ± " + std::to_string(tolerance);
+    result::put_in({{"l", "0.9" + limits}, {"d", "1.18" + limits}}, question.model);
+    BallOptions ball;
+    ball.at = {{"J3x", "0.59"}, {"J3y", "0.55"}};
+    ball.in = {"J3x", "J3y"};
+    solve::Control control;
+    const Clearance found = clearance(question, ball, {.precision = 0.01}, {}, control);
+    const double radius = found.free_radius();
+    EXPECT_GT(radius, 0.066 - 2.5 * tolerance);
+    ASSERT_TRUE(found.nearest.upper);
+    EXPECT_LT(*found.nearest.upper, 1.02 * radius);
+    std::mt19937 random(5);
+    const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+    double nearest = 1;  // beyond the ball there are robots that do not meet it, where the lengths are at their ends
+    for (int k = 0; k < 10'000; ++k) {
+      const double l = 0.9 + tolerance * (k % 2 == 0 ? number(-1, 1) : k % 4 < 2 ? -1 : 1);
+      const double d = 1.18 + tolerance * (k % 3 == 0 ? number(-1, 1) : k % 6 < 3 ? -1 : 1);
+      const double angle = number(-M_PI, M_PI), r = radius * std::sqrt(number(0, 1.1));
+      const auto all = five_bar_postures(0.59 + r * std::cos(angle), 0.55 + r * std::sin(angle), l, d);
+      ASSERT_EQ(all.size(), 4u);
+      double worst = 0;
+      for (const MatrixXd& j : all) worst = std::max(worst, amplification(j));
+      EXPECT_TRUE(r > radius || worst < 2) << l << " " << d << " " << r;
+      if (worst > 2) nearest = std::min(nearest, r);
+    }
+    EXPECT_LT(nearest, 1.05 * radius) << "the ball is nearly the largest one";
   }
 }
 
@@ -222,7 +260,7 @@ TEST(RequiredMap, ThatSomebodyChangedIsRefused) {
     MapCellClaim open = cells[index_of(Standing::open, random() % cells.size())];
     double worst = 0;  // at one place in it
     for (const MatrixXd& j : dextar_postures(open.sides[0].mid(), open.sides[1].mid()))
-      worst = std::max(worst, Eigen::JacobiSVD<MatrixXd>(j).singularValues()(0));
+      worst = std::max(worst, amplification(j));
     open.standing = worst > 2 ? Standing::satisfied : Standing::violated;
     EXPECT_FALSE(failures(open).empty()) << worst;
   }
