@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 
-#include "corank/certify/inertia.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"

@@ -1,5 +1,5 @@
-// Requirements over a plane and in balls, against kinematics of their own: nothing is claimed that a random place, or a random
-// robot within tolerances, contradicts. The files of maps.
+// Requirements over a plane and in balls, against kinematics of their own: nothing is claimed that a random place, or a
+// random robot within tolerances, contradicts. The files of maps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
