@@ -60,6 +60,31 @@ TEST(Requirement, KeepsWhatCancelsToFirstOrder) {
   EXPECT_EQ(of(2.01, 2.5), Standing::violated);
 }
 
+// What first-order terms alone would wrongly show.
+TEST(Requirement, CountsTermsOfSecondOrder) {
+  const UpwardRounding rounding;
+  const auto of = [](const VelocityTest& test, const std::vector<AffineForm>& forms, double width) {
+    Requirement r;
+    r.tests.push_back(test);
+    return standing(
+        r, [&](int k) { return forms[k]; }, offsets(width));
+  };
+  const AffineForm first{0.0, {1.0, 0.0}}, second{0.0, {0.0, 1.0}}, beside_one{1.0, {1.0, 0.0}};
+  // x + δ1 y + δ2 z = 0, y² + z² − x² > 0: not at δ1 = δ2 = 0.8, where the diagonal is positive.
+  const VelocityTest form{3, {{-1, 1}, {0, {}}, {1, {}}}, {-1, 1, 1}, {}, {}};
+  EXPECT_EQ(of(form, {first, second}, 0.8), Standing::open);
+  EXPECT_EQ(of(form, {first, second}, 0.6), Standing::satisfied);
+  // x = δ1 w, y = w: ‖(x, y)‖ < 1.05 |w| is √(1 + δ1²) < 1.05.
+  const VelocityTest norm{
+      3, {{-1, -1}, {-1, 0}, {0, {}}, {-1, 0}, {-1, -1}, {-1, 1}}, {}, {{{0, 1}, 1}}, ExactNumber::rational("1.05")};
+  EXPECT_EQ(of(norm, {first}, 0.5), Standing::open);
+  EXPECT_EQ(of(norm, {first}, 0.3), Standing::satisfied);
+  // (1 + δ1) x = y/2: |x| < 2 |y| is 1/2 < 2 (1 + δ1).
+  const VelocityTest slow{2, {{0, {}}, {-1, ExactNumber::rational("-1/2")}}, {-1, 4}, {}, {}};
+  EXPECT_EQ(of(slow, {beside_one}, 0.9), Standing::open);
+  EXPECT_EQ(of(slow, {beside_one}, 0.5), Standing::satisfied);
+}
+
 // A row twice: its kernel is known to be no smaller.
 TEST(Requirement, WithADependentRowIsNeverViolated) {
   const UpwardRounding rounding;
