@@ -162,6 +162,7 @@ std::vector<Standing> postures_of(ClearanceRun& run) {
     const analyze::PathFinder finder(run.question, {.avoid = analyze::Avoid::requirements});
     for (const Box& box : finder.ends(run.ball.at, run.control())) result.push_back(finder.standing(box));
   } catch (const analyze::EndError&) {
+  } catch (const symbolic::ModelError&) {  // a path finder takes no sines of lengths, a ball does
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "corank/tests/app/program.h"
 #include "corank/tests/seeds.h"
@@ -67,6 +68,18 @@ TEST(RequirementCommands, BoundHowFarThatIs) {
   EXPECT_THAT(run.out, HasSubstr("it is proven that no limit of a requirement is nearer than the lower bound"));
   expect_verified(folder.file("c-free.h5"));
   expect_verified(folder.file("c-nearest.h5"), 4);
+}
+
+// Whether the postures at the centre meet it is examined where angles alone stand in sines; the ball needs no more.
+TEST(RequirementCommands, BoundHowFarThatIsOfSinesOfLengths) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("sine.cuik");
+  std::ofstream(file) << "[SYSTEM VARS]\nx : [-2, 2]\nu : [0, 3]\n[SYSTEM EQS]\nx = sin(u);\n[INPUTS] u\n[OUTPUTS] x\n";
+  const auto run =
+      run_corank({"clearance", file, "--require", "amplification(outputs) <= 1/2", "--at", "u=1.5", "--in", "u"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  // |cos u| = 1/2 at u = pi/3, which is 0.4528 from 1.5.
+  EXPECT_THAT(run.out, HasSubstr("radius in [0.44"));
 }
 
 TEST(RequirementCommands, FindPathsThatKeepFromThere) {
