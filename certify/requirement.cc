@@ -209,28 +209,38 @@ Standing standing_of_groups(const VelocityTest& test, const Kernel& kernel, Offs
 
 }  // namespace
 
+Standing both(Standing a, Standing b) {
+  for (const Standing worst : {Standing::violated, Standing::open})
+    if (a == worst || b == worst) return worst;
+  return Standing::satisfied;
+}
+
 Standing standing(const Requirement& requirement, const FormOfVariable& form, Offsets offsets) {
   CORANK_CHECK(UpwardRounding::active());
+  Standing result = Standing::satisfied;
+  if (requirement.excess) {
+    const Interval range = form(*requirement.excess).range(offsets);
+    result = range.hi() <= 0 ? Standing::satisfied : range.lo() > 0 ? Standing::violated : Standing::open;
+  }
+  for (const VelocityTest& test : requirement.tests) {
+    if (result == Standing::violated) break;
+    const std::optional<Kernel> space = kernel(test, form, offsets);
+    result = both(result, !space              ? Standing::open
+                          : test.form.empty() ? standing_of_groups(test, *space, offsets)
+                                              : standing_of_form(test, *space, offsets));
+  }
+  return result;
+}
+
+Standing standing(const std::vector<Requirement>& requirements, const FormOfVariable& form, Offsets offsets) {
   std::map<int, AffineForm> known;
   const FormOfVariable once = [&](int variable) {
     const auto found = known.find(variable);
     return found != known.end() ? found->second : known.emplace(variable, form(variable)).first->second;
   };
   Standing result = Standing::satisfied;
-  const auto also = [&](Standing part) {
-    if (result != Standing::violated && part != Standing::satisfied) result = part;
-  };
-  if (requirement.excess) {
-    const Interval range = once(*requirement.excess).range(offsets);
-    also(range.hi() <= 0 ? Standing::satisfied : range.lo() > 0 ? Standing::violated : Standing::open);
-  }
-  for (const VelocityTest& test : requirement.tests) {
-    if (result == Standing::violated) break;
-    const std::optional<Kernel> space = kernel(test, once, offsets);
-    also(!space              ? Standing::open
-         : test.form.empty() ? standing_of_groups(test, *space, offsets)
-                             : standing_of_form(test, *space, offsets));
-  }
+  for (const Requirement& r : requirements)
+    if (result != Standing::violated) result = both(result, standing(r, once, offsets));
   return result;
 }
 

@@ -26,5 +26,11 @@ using FormOfVariable = std::function<AffineForm(int variable)>;
 /// Theorem (groups): ker A is the line of V. For any unit vector e, with a = e·V_g and b = ‖V_g − e·a‖: ‖V_g‖ = √(a² + b²) ≥
 /// a, and ‖V_g‖ − a = √(a² + b²) − a falls with a, so it is at most its value at the least a and the largest b.
 Standing standing(const Requirement& requirement, const FormOfVariable& form, std::span<const Interval> offsets);
+/// The same of all of them together.
+Standing standing(const std::vector<Requirement>& requirements, const FormOfVariable& form,
+                  std::span<const Interval> offsets);
+
+/// Of two things that are both required.
+Standing both(Standing a, Standing b);
 
 }  // namespace corank::certify

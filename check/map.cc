@@ -68,7 +68,8 @@ class MapCheck {
     if (cell.sides.size() != parameters_.size()) return "it does not have one side for each parameter";
     for (std::size_t k = 0; k < parameters_.size(); ++k)
       if (!system_.variables[parameters_[k]].domain.contains(cell.sides[k])) return "it is not within the map";
-    if (cell.standing != Standing::open && requirements_.empty()) return "it speaks of requirements, and there are none";
+    if (cell.standing != Standing::open && requirements_.empty())
+      return "it claims something of requirements, but the model has no requirements";
     if (cell.count < 0 || static_cast<std::int64_t>(cell.sheets.size()) != std::int64_t{cell.count} * copies_)
       return "it does not have as many sheets as it claims solutions";
     for (const MapSheet& sheet : cell.sheets) {

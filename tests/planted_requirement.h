@@ -85,6 +85,28 @@ struct PlantedRequirement {
   std::mt19937 random_;
 };
 
+/// What first-order terms alone would wrongly show, by conditions of one kind each.
+struct SecondOrderCase {
+  VelocityTest test;
+  std::vector<PlantedRequirement::Entry> entries;
+  double width;
+  Standing expected;
+};
+
+inline std::vector<SecondOrderCase> second_order_cases() {
+  const PlantedRequirement::Entry first{0, {1, 0}, 0}, second{0, {0, 1}, 0}, beside_one{1, {1, 0}, 0};
+  // x + δ1 y + δ2 z = 0, y² + z² − x² > 0: not at δ1 = δ2 = 0.8, where the diagonal is positive.
+  const VelocityTest form{3, {{-1, 1}, {0, {}}, {1, {}}}, {-1, 1, 1}, {}, {}};
+  // x = δ1 w, y = w: ‖(x, y)‖ < 1.05 |w| is √(1 + δ1²) < 1.05.
+  const VelocityTest norm{
+      3, {{-1, -1}, {-1, 0}, {0, {}}, {-1, 0}, {-1, -1}, {-1, 1}}, {}, {{{0, 1}, 1}}, ExactNumber::rational("1.05")};
+  // (1 + δ1) x = y/2: |x| < 2 |y| is 1/2 < 2 (1 + δ1).
+  const VelocityTest slow{2, {{0, {}}, {-1, ExactNumber::rational("-1/2")}}, {-1, 4}, {}, {}};
+  return {{form, {first, second}, 0.8, Standing::open}, {form, {first, second}, 0.6, Standing::satisfied},
+          {norm, {first}, 0.5, Standing::open},         {norm, {first}, 0.3, Standing::satisfied},
+          {slow, {beside_one}, 0.9, Standing::open},    {slow, {beside_one}, 0.5, Standing::satisfied}};
+}
+
 /// How often `standing(planted)` was decided, and contradicted by a sample.
 struct PlantedCount {
   int satisfied = 0, violated = 0, open = 0, contradicted = 0;

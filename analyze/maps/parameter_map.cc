@@ -254,25 +254,20 @@ std::optional<Standing> ParameterMapper::Parts::standing_of(const solve::Paramet
   Standing all = Standing::satisfied;
   for (const std::size_t k : solutions) {
     Box x = cell.sheets[k].image;
-    const auto step = [&] {
-      std::vector<double> middle;
-      for (const Interval& side : x) middle.push_back(side.mid());
-      return certify::NewtonStep(system, certify::midpoint_preconditioner(system, middle, cell.sheets[k].dependent), x,
-                                 workspace);
+    const auto tightened = [&] {
+      const auto p = certify::midpoint_preconditioner(system, midpoint(x), cell.sheets[k].dependent);
+      return certify::tighten_sheet(system, p, x, workspace);
     };
-    step();
-    const certify::NewtonStep at = step();
+    tightened();
+    const certify::NewtonStep at = tightened();
     Box offsets;
     for (const int p : f.parameters) offsets.push_back(x[p] - Interval(at.center()[p]));
     const auto form = [&](int variable) {
       return f.kept_as[variable] >= 0 ? at.form_of_variable(f.kept_as[variable], x, f.parameters)
                                       : at.form_at_zeros(f.value_row[variable], x, f.parameters);
     };
-    for (const Requirement& r : f.requirements) {
-      const Standing standing = certify::standing(r, form, offsets);
-      if (standing == Standing::violated) return standing;
-      if (standing == Standing::open) all = standing;
-    }
+    all = certify::both(all, certify::standing(f.requirements, form, offsets));
+    if (all == Standing::violated) break;
   }
   return all;
 }

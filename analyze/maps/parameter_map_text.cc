@@ -98,7 +98,6 @@ std::string to_table(const ParameterMap& map) {
   if (!sampled)
     text += fmt::format("  {:<22}{} of the plane, where the number may change\n", "undecided",
                         percent(std::max(0.0, 1 - proven)));
-
   for (const std::string& r : map.require) text += fmt::format("  {:<22}{}\n", "required", r);
   if (!map.require.empty()) {
     const auto line = [&](const char* what, Standing standing, const char* words) {

@@ -13,13 +13,7 @@ Standing standing_in(const symbolic::Mechanism& mechanism, const symbolic::Trigo
   const std::vector<Polynomial> functions = symbolic::polynomials(space, requirements.functions());
   const UpwardRounding rounding;
   const auto form = [&](int function) { return certify::AffineForm{certify::evaluate(functions[function], box), {}}; };
-  Standing all = Standing::satisfied;
-  for (const Requirement& r : requirements.of_functions()) {
-    const Standing standing = certify::standing(r, form, {});
-    if (standing == Standing::violated) return standing;
-    if (standing == Standing::open) all = standing;
-  }
-  return all;
+  return certify::standing(requirements.of_functions(), form, {});
 }
 
 }  // namespace corank::analyze

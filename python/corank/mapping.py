@@ -195,9 +195,9 @@ def map(
     """
     if certificate and (count != "solutions" or client is not None):
         raise ValueError('certificate: expected count="solutions" and no client')
-    if require is not None and count != "solutions":
-        raise ValueError('require: expected count="solutions"')
     if require is not None:
+        if count != "solutions":
+            raise ValueError('require: expected count="solutions"')
         self = self.with_requirements(*([require] if isinstance(require, str) else require))
     core = _corank.ParameterMap(
         ask(self._core, set),

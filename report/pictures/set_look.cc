@@ -124,7 +124,7 @@ constexpr std::array<SetLook, 18> kLooks{{
      .label = "limits of requirements",
      .meaning = "a requirement reaches its limit: on a path without such a configuration, what is met once is met all along",
      .of_corank = "requirements reach their limits in at least {} independent ways",
-     .none = "There are none in the search domain: each requirement is met, or not met, along every path.",
+     .none = "There are none in the search domain: no motion changes whether a requirement is met.",
      .drawn = {{{0.85, 0.55, 0.0}, "#a86f00", "#ffc04d"}, 15, 4.2}},
     {.set = SingularitySet::forward_cusps,
      .title = "Cusps of the forward locus",

@@ -5,12 +5,11 @@
 #include "corank/symbolic/model/model_builder.h"
 #include "corank/symbolic/model/model_faults.h"
 #include "corank/symbolic/model/model_grammar.h"
+#include "corank/symbolic/model/parse_text.h"
 #include "corank/symbolic/model/text_file.h"
 
 namespace corank::symbolic {
 namespace {
-
-namespace peg = tao::pegtl;
 
 /// What a token means.
 template <typename Rule>
@@ -98,45 +97,20 @@ CORANK_ACTION(colour_digits, { b.drawing.parts.back().colour = "#" + in.string()
 #undef CORANK_ACTION
 #undef CORANK_ACTION0
 
-/// Turns a failed must<Rule> into the ModelError that FaultOf<Rule> words.
-template <typename Rule>
-struct Control : peg::normal<Rule> {
-  template <typename AnyInput>
-  [[noreturn]] static void raise(const AnyInput& in, ModelBuilder& builder) {
-    const bool unfinished_comment = std::is_same_v<Rule, grammar::block_comment_rest>;
-    FaultOf<Rule>::raise({builder, unfinished_comment ? builder.comment_where : place(in, builder),
-                          std::string_view(in.current(), in.size())});
-    throw std::logic_error("a fault that says nothing");
-  }
-};
-
-/// Returns the place of the text's end.
-template <typename Rule>
-SourceLocation parse_text(std::string_view text, ModelBuilder& builder) {
-  if (text.size() > kMaxFileBytes)
-    throw ModelError({builder.file, 0, 0}, "the text has " + std::to_string(text.size()) + " bytes",
-                     "at most " + std::to_string(kMaxFileBytes));
-  TextInput plain(text.data(), text.data() + text.size(), "");
-  peg::parse<grammar::plain_text, peg::nothing, Control>(plain, builder);
-  TextInput in(text.data(), text.data() + text.size(), "");
-  if (!peg::parse<Rule, Action, Control>(in, builder)) throw std::logic_error("a grammar that fails without a fault");
-  return place(in, builder);
-}
-
 }  // namespace
 
 Mechanism parse_model(std::string_view text, const std::string& file) {
   ModelBuilder builder(file);
   builder.mechanism = Mechanism(std::filesystem::path(file).stem().string());
   builder.mechanism.set_source_text(std::string(text));
-  const SourceLocation end = parse_text<grammar::model>(text, builder);
+  const SourceLocation end = parse_text<grammar::model, Action>(text, builder);
   builder.finish(end);
   return std::move(builder.mechanism);
 }
 
 Mechanism parse_fragment(std::string_view text, const std::string& file) {
   ModelBuilder builder(file);
-  parse_text<grammar::model>(text, builder);
+  parse_text<grammar::model, Action>(text, builder);
   return std::move(builder.mechanism);
 }
 
@@ -152,19 +126,19 @@ Mechanism read_model(const std::filesystem::path& path) { return parse_model(rea
 
 Expression parse_expression(std::string_view text, const std::string& file) {
   ModelBuilder builder(file);
-  parse_text<grammar::lone_expression>(text, builder);
+  parse_text<grammar::lone_expression, Action>(text, builder);
   return builder.values.at(0);
 }
 
 Constant parse_constant(const std::string& name, std::string_view text, const std::string& file) {
   ModelBuilder builder(file);
-  parse_text<grammar::lone_constant_value>(text, builder);
+  parse_text<grammar::lone_constant_value, Action>(text, builder);
   return {name, builder.values.at(0), {}, builder.tolerance};
 }
 
 Expression parse_anonymous_expression(std::string_view text) {
   ModelBuilder builder(in_quotes(text), false);
-  parse_text<grammar::lone_expression>(text, builder);
+  parse_text<grammar::lone_expression, Action>(text, builder);
   return builder.values.at(0);
 }
 

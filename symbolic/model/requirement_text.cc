@@ -1,14 +1,13 @@
 #include "corank/symbolic/model/requirement_text.h"
 
-#include <algorithm>
 #include <cctype>
 #include <tao/pegtl.hpp>
-#include <type_traits>
 
 #include "corank/symbolic/model/expression_actions.h"
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/model/model_faults.h"
 #include "corank/symbolic/model/model_grammar.h"
+#include "corank/symbolic/model/parse_text.h"
 
 namespace corank::symbolic {
 namespace grammar {
@@ -72,8 +71,6 @@ struct requirement : seq<gap,
 }  // namespace grammar
 
 namespace {
-
-namespace peg = tao::pegtl;
 
 struct RequirementBuilder : ModelBuilder {
   using ModelBuilder::ModelBuilder;
@@ -170,28 +167,9 @@ CORANK_FAULT(comparison_sign, "an operator, '<=' or '>='")
 CORANK_FAULT(requirement_end, "the end of the requirement")
 #undef CORANK_FAULT
 
-namespace {
-
-template <typename Rule>
-struct RequirementControl : peg::normal<Rule> {
-  template <typename AnyInput>
-  [[noreturn]] static void raise(const AnyInput& in, RequirementBuilder& builder) {
-    const bool unfinished_comment = std::is_same_v<Rule, grammar::block_comment_rest>;
-    FaultOf<Rule>::raise({builder, unfinished_comment ? builder.comment_where : place(in, builder),
-                          std::string_view(in.current(), in.size())});
-    throw std::logic_error("a fault that says nothing");
-  }
-};
-
-}  // namespace
-
 RequirementText parse_requirement(std::string_view text, const SourceLocation& begin) {
   RequirementBuilder builder(begin.file);
-  builder.out.text = std::string(text);
-  TextInput plain(text.data(), text.data() + text.size(), "");
-  peg::parse<grammar::plain_text, peg::nothing, RequirementControl>(plain, builder);
-  TextInput in(text.data(), text.data() + text.size(), "", 0, std::max(begin.line, 1), std::max(begin.column, 1));
-  peg::parse<grammar::requirement, RequirementAction, RequirementControl>(in, builder);
+  parse_text<grammar::requirement, RequirementAction>(text, builder, begin);
   return std::move(builder.out);
 }
 

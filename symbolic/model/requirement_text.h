@@ -56,11 +56,10 @@ struct ErrorLimit {
 };
 
 struct RequirementText {
-  std::string text;
   std::variant<AmplificationLimit, EffortLimit, ErrorLimit, Relation> limit;
 };
 
-/// `begin`: where the text does. Throws ModelError, with the place, where the text is none.
+/// `begin`: where the text does. Throws ModelError, with the place, where the text is no requirement.
 RequirementText parse_requirement(std::string_view text, const SourceLocation& begin = {"requirement", 1, 1});
 
 }  // namespace corank::symbolic

@@ -300,14 +300,16 @@ void KernelQuestion::drop(const std::vector<std::size_t>& rows) {
   }
 }
 
-KernelQuestion kernel_question(const Mechanism& of, SingularitySet set, std::optional<KernelSide> side) {
+KernelQuestion kernel_question(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
   const SetDefinition& asked = definition(set);
-  const Mechanism mechanism = asked.of_requirements ? at_requirements(of) : of;
+  if (asked.of_requirements) {
+    const Mechanism companion = at_requirements(mechanism);
+    constexpr std::array kInputs{Role::input};
+    return question_of(companion, derive(companion).velocity, asked, kInputs, asked.matrix, side);
+  }
   const VelocityEquation velocity = derive(mechanism).velocity;
-  constexpr std::array kInputs{Role::input};
-  const std::span<const Role> locked = asked.of_requirements ? std::span<const Role>(kInputs) : asked.locked;
-  const char* const name = velocity.given && locked.empty() ? "L" : asked.matrix;
-  KernelQuestion kernel = question_of(mechanism, velocity, asked, locked, name, side);
+  const char* const name = velocity.given && asked.locked.empty() ? "L" : asked.matrix;
+  KernelQuestion kernel = question_of(mechanism, velocity, asked, asked.locked, name, side);
   if (!asked.also_locked.empty())
     kernel.also.push_back(question_of(mechanism, velocity, asked, asked.also_locked, asked.also_matrix, std::nullopt));
   return kernel;

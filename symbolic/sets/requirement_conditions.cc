@@ -1,0 +1,333 @@
+#include "corank/symbolic/sets/requirement_conditions.h"
+
+#include <algorithm>
+#include <array>
+
+#include "corank/core/check.h"
+#include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/model/expression_words.h"
+#include "corank/symbolic/model/requirement_text.h"
+#include "corank/symbolic/velocity/kernel_vector.h"
+#include "corank/symbolic/velocity/velocity_equation.h"
+
+namespace corank::symbolic {
+namespace {
+
+enum class Dimension { number, length, angle, force, moment };
+
+const char* word(Dimension dimension) {
+  static constexpr std::array kWords{"a number", "a length", "an angle", "a force", "a moment"};
+  return kWords[static_cast<std::size_t>(dimension)];
+}
+
+// In metres, radians, newtons, newton metres.
+struct Unit {
+  const char* name;
+  Dimension dimension;
+  const char* size;
+};
+constexpr std::array kLengths{Unit{"um", Dimension::length, "1e-6"}, Unit{"mm", Dimension::length, "1e-3"},
+                              Unit{"cm", Dimension::length, "1e-2"}, Unit{"dm", Dimension::length, "1e-1"},
+                              Unit{"m", Dimension::length, "1"}};
+constexpr std::array kOthers{Unit{"rad", Dimension::angle, "1"},      Unit{"mrad", Dimension::angle, "1e-3"},
+                             Unit{"deg", Dimension::angle, "pi/180"}, Unit{"N", Dimension::force, "1"},
+                             Unit{"kN", Dimension::force, "1e3"},     Unit{"mN", Dimension::force, "1e-3"}};
+
+template <std::size_t n>
+const Unit* find(const std::array<Unit, n>& units, const std::string& name) {
+  const auto found = std::ranges::find(units, name, &Unit::name);
+  return found == units.end() ? nullptr : &*found;
+}
+
+constexpr std::size_t kMostInputs = 8;  // of an error: half as many corners as 2 to that
+
+}  // namespace
+
+class RequirementTranslator::Translator {
+ public:
+  Translator(const Mechanism& mechanism, const std::vector<std::string>& parameters)
+      : mechanism_(mechanism), parameters_(parameters) {}
+
+  Conditions run(const RequirementLine& line) {
+    line_ = &line;
+    Conditions out;
+    std::visit([&](const auto& limit) { add(limit, out); }, parse_requirement(line.text, line.where).limit);
+    return out;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& problem, const std::string& expected) const {
+    throw ModelError(line_->where, "the requirement " + in_quotes(line_->text) + ": " + problem, expected);
+  }
+
+  const ExpressionMatrix& velocity() {
+    if (velocity_.columns.empty()) {
+      if (mechanism_.is_plain_system())
+        refuse("a plain system has no inputs and outputs", "[INPUTS] and [OUTPUTS], or a comparison such as x <= 1");
+      velocity_ = derive(mechanism_).velocity.matrix;
+    }
+    return velocity_;
+  }
+
+  std::size_t column(const std::string& name) {
+    const auto& columns = velocity().columns;
+    auto found = std::ranges::find(columns, name);
+    for (const char* of : {"v_", "w_"})  // how the rates of a robot from parts are called
+      if (found == columns.end()) found = std::ranges::find(columns, of + name);
+    if (found == columns.end())
+      refuse(in_quotes(name) + " has no velocity" + suggestion(name, columns), "one of " + joined(columns));
+    return found - columns.begin();
+  }
+  std::size_t column(const std::string& name, Role role) {
+    const std::size_t found = column(name);
+    if (velocity().roles[found] != role)
+      refuse(in_quotes(name) + " is no " + to_string(role), std::string("the name of an ") + to_string(role));
+    return found;
+  }
+  std::size_t driven_column(const std::string& name) {
+    const std::size_t found = column(name);
+    if (velocity().roles[found] == Role::input) refuse(in_quotes(name) + " is an input", "coordinates that motors move");
+    return found;
+  }
+  // An angle that counts as a length, where a ball is about its values (Mechanism::unroll).
+  bool is_in_sines_alone(const std::string& name) const {
+    bool some = false;
+    const auto outside = [&](const auto& self, const Expression& e, bool inside) -> bool {
+      if (e.kind() == Expression::Kind::symbol && e.name() == name) {
+        some = true;
+        return !inside;
+      }
+      const bool sine = e.kind() == Expression::Kind::function && (e.name() == "sin" || e.name() == "cos");
+      return std::ranges::any_of(e.operands(), [&](const Expression& x) { return self(self, x, inside || sine); });
+    };
+    for (const Constraint& c : mechanism_.equations())
+      if (outside(outside, c.relation.lhs, false) || outside(outside, c.relation.rhs, false)) return false;
+    return some;
+  }
+  Dimension dimension(std::size_t column) {
+    const std::string& name = velocity().columns[column];
+    const int rate = mechanism_.find_rate(name), coordinate = mechanism_.find_coordinate(name);
+    if (rate >= 0) return mechanism_.rates()[rate].kind == CoordinateKind::angle ? Dimension::angle : Dimension::length;
+    const Coordinate& c = mechanism_.coordinates()[coordinate];
+    if (c.direction) return Dimension::number;
+    return c.kind == CoordinateKind::angle || is_in_sines_alone(name) ? Dimension::angle : Dimension::length;
+  }
+
+  bool depends_on_parameter(const Expression& e) const {
+    if (std::ranges::any_of(parameters_, [&](const std::string& name) { return e.mentions(name); })) return true;
+    return std::ranges::any_of(mechanism_.constants(),
+                               [&](const Constant& c) { return e.mentions(c.name) && depends_on_parameter(c.value); });
+  }
+
+  // How many of the model's units one of these is.
+  Expression factor(const std::string& unit, Dimension wanted) const {
+    const auto length = [&](const Unit& u) -> Expression {
+      const std::string& own = mechanism_.drawing().unit;
+      const Unit* model = find(kLengths, own);
+      if (!model)
+        refuse(own.empty() ? "the model has no unit of lengths" : "the model's unit of lengths is " + own,
+               "a model with a line such as `unit mm`, or limits without a unit of length");
+      return Expression(u.size) / Expression(model->size);
+    };
+    const auto check = [&](Dimension d) {
+      if (d != wanted) refuse(unit + " is the unit of " + word(d), std::string("the unit of ") + word(wanted));
+    };
+    if (const Unit* u = find(kLengths, unit)) {
+      check(Dimension::length);
+      return length(*u);
+    }
+    if (const Unit* u = find(kOthers, unit)) {
+      check(u->dimension);
+      return u->size;
+    }
+    check(Dimension::moment);
+    const std::size_t blank = unit.find(' ');
+    const Unit* const force = find(kOthers, unit.substr(0, blank));
+    const Unit* const arm = find(kLengths, unit.substr(blank + 1));
+    CORANK_CHECK(force && arm);  // the grammar knows no other
+    return Expression(force->size) * length(*arm);
+  }
+
+  Expression in_model_units(const Quantity& quantity, Dimension wanted) const {
+    if (depends_on_parameter(quantity.value))
+      refuse(quantity.value.text() + " depends on a parameter", "limits that keep their values");
+    if (const std::string name = mechanism_.toleranced_in(quantity.value); !name.empty())
+      refuse(quantity.value.text() + " depends on " + in_quotes(name) + ", which is known within a tolerance only",
+             "limits that are exact");
+    return quantity.unit.empty() ? quantity.value : quantity.value * factor(quantity.unit, wanted);
+  }
+  const Expression& checked(const Expression& e, int least_sign) const {
+    if (exact_value(mechanism_, e, e.text()).sign().value_or(-1) < least_sign)
+      refuse(e.text() + " is not " + (least_sign > 0 ? "positive" : "0 or more"), "a positive number");
+    return e;
+  }
+  Expression positive(const Quantity& q, Dimension wanted) const { return checked(in_model_units(q, wanted), 1); }
+
+  // The rows of L in these columns, each a sum of multiples of columns; without rows of zeros.
+  struct Column {
+    std::vector<std::pair<std::size_t, Expression>> parts;
+  };
+  VelocityCondition condition(const std::vector<Column>& columns) {
+    VelocityCondition result;
+    for (const Column& c : columns)
+      result.kinds.push_back(c.parts.size() == 1 && dimension(c.parts[0].first) == Dimension::angle
+                                 ? CoordinateKind::angle
+                                 : CoordinateKind::length);
+    for (const std::vector<Expression>& row : velocity().rows) {
+      std::vector<Expression> entries;
+      bool zero = true;
+      for (const Column& c : columns) {
+        std::vector<Expression> terms;
+        for (const auto& [column, factor] : c.parts)
+          if (!same_tree(row[column], 0)) terms.push_back(same_tree(factor, 1) ? row[column] : times(row[column], factor));
+        zero = zero && terms.empty();
+        entries.push_back(terms.empty() ? Expression(0) : sum_of(terms));
+      }
+      if (!zero) result.rows.push_back(std::move(entries));
+    }
+    return result;
+  }
+  static Column whole(std::size_t column) { return {{{column, 1}}}; }
+
+  void add(const AmplificationLimit& limit, Conditions& out) {
+    const Role other = limit.role == Role::output ? Role::input : Role::output;
+    if (!limit.most.unit.empty()) refuse("an amplification has no unit", "a number; units belong behind metric");
+    const Expression most = positive(limit.most, Dimension::number);
+    const std::size_t n = velocity().columns.size();
+    std::vector<std::optional<Expression>> sizes(n);
+    for (const auto& [name, quantity] : limit.metric) {
+      const std::size_t c = column(name);
+      if (velocity().roles[c] == Role::passive) refuse(in_quotes(name) + " is neither input nor output", "one that is");
+      sizes[c] = positive(quantity, dimension(c));
+    }
+    std::array<std::array<bool, 3>, 2> has{};  // of the other role, of this one: numbers, lengths, angles
+    for (std::size_t c = 0; c < n; ++c)
+      if (velocity().roles[c] != Role::passive)
+        has[velocity().roles[c] == limit.role][static_cast<std::size_t>(dimension(c))] = true;
+    const auto kinds = [&](bool of_role) { return std::ranges::count(has[of_role], true); };
+    if (kinds(false) == 0 || kinds(true) == 0) refuse("the model has no inputs or no outputs", "both");
+    std::vector<Column> columns;
+    std::vector<Expression> form;
+    for (std::size_t c = 0; c < n; ++c) {
+      columns.push_back(whole(c));
+      const Role role = velocity().roles[c];
+      const bool of_role = role == limit.role;
+      if (role != Role::passive && !sizes[c] && kinds(of_role) > 1)
+        refuse(std::string("the ") + to_string(role) + "s have different units, and " + in_quotes(velocity().columns[c]) +
+                   " has no metric",
+               "metric " + velocity().columns[c] +
+                   (dimension(c) == Dimension::angle    ? ": 1 deg"
+                    : dimension(c) == Dimension::length ? ": 1 mm"
+                                                        : ": 1") +
+                   ", …");
+      const Expression size = sizes[c] ? *sizes[c] * *sizes[c] : Expression(1);
+      form.push_back(role == other ? most * most / size : of_role ? -(Expression(1) / size) : Expression(0));
+    }
+    out.of_velocities.push_back(condition(columns));
+    out.of_velocities.back().form = std::move(form);
+  }
+
+  void add(const EffortLimit& limit, Conditions& out) {
+    const std::size_t motor = column(limit.motor, Role::input);
+    const bool turns = dimension(motor) == Dimension::angle;
+    if (turns != limit.torque) refuse(in_quotes(limit.motor) + " is " + word(dimension(motor)), turns ? "torque" : "force");
+    std::vector<Column> columns;
+    const std::vector<int> place = without_inputs(columns);
+    columns.push_back(whole(motor));
+    VelocityCondition of_motor = on_a_line(columns);
+    for (const Load& load : limit.loads) {
+      VelocityCondition::Group group;
+      for (const std::string& name : load.names) {
+        const std::size_t c = driven_column(name);
+        if (dimension(c) != (load.moment ? Dimension::angle : Dimension::length))
+          refuse(in_quotes(name) + " is " + word(dimension(c)), load.moment ? "a moment on angles" : "a force on lengths");
+        add_column(name, place[c], group);
+      }
+      group.weight = checked(in_model_units(load.most, load.moment ? Dimension::moment : Dimension::force), 0);
+      of_motor.groups.push_back(std::move(group));
+    }
+    of_motor.bound = positive(limit.most, limit.torque ? Dimension::moment : Dimension::force);
+    out.of_velocities.push_back(std::move(of_motor));
+  }
+
+  void add(const ErrorLimit& limit, Conditions& out) {
+    std::vector<Column> columns;
+    const std::vector<int> place = without_inputs(columns);
+    std::vector<std::size_t> inputs;
+    for (std::size_t c = 0; c < place.size(); ++c)
+      if (place[c] < 0) inputs.push_back(c);
+    if (inputs.empty() || inputs.size() > kMostInputs)
+      refuse("there are " + counted(inputs.size(), "input"), "1 to " + std::to_string(kMostInputs));
+    VelocityCondition::Group group{{}, 1};
+    const Dimension of = dimension(column(limit.names[0]));
+    for (const std::string& name : limit.names) {
+      const std::size_t c = driven_column(name);
+      if (dimension(c) != of) refuse("an error in different units", "a requirement for each");
+      add_column(name, place[c], group);
+    }
+    std::vector<std::optional<Expression>> most(place.size());
+    for (const auto& [name, quantity] : limit.inputs) {
+      const bool all = name == "inputs" && std::ranges::find(velocity().columns, name) == velocity().columns.end();
+      for (const std::size_t c : all ? inputs : std::vector{column(name, Role::input)})
+        most[c] = checked(in_model_units(quantity, dimension(c)), 0);
+    }
+    for (const std::size_t c : inputs)
+      if (!most[c]) refuse("the error of " + in_quotes(velocity().columns[c]) + " is not given", "one for each input");
+    const Expression bound = positive(limit.most, of);
+    for (std::size_t corner = 0; corner < std::size_t{1} << (inputs.size() - 1); ++corner) {
+      Column together;
+      for (std::size_t k = 0; k < inputs.size(); ++k)
+        together.parts.emplace_back(inputs[k], (corner >> k & 1) != 0 ? -*most[inputs[k]] : *most[inputs[k]]);
+      std::vector<Column> all = columns;
+      all.push_back(std::move(together));
+      VelocityCondition at_corner = on_a_line(all);
+      at_corner.groups.push_back(group);
+      at_corner.bound = bound;
+      out.of_velocities.push_back(std::move(at_corner));
+    }
+  }
+
+  void add(const Relation& relation, Conditions& out) const {
+    const bool at_most = relation.kind == Relation::Kind::less_equal;
+    out.excess = at_most ? relation.lhs - relation.rhs : relation.rhs - relation.lhs;
+  }
+
+  // The same, for one velocity but for its size: locked motors leave the mechanism no freedom, and one more motor moves it.
+  VelocityCondition on_a_line(const std::vector<Column>& columns) {
+    VelocityCondition result = condition(columns);
+    if (result.rows.size() + 1 != columns.size())
+      refuse("the mechanism with all motors locked has " +
+                 std::string(result.rows.size() + 1 < columns.size() ? "a freedom left" : "more equations than unknowns"),
+             "as many inputs as the mobility");
+    return result;
+  }
+
+  // Appends the columns but the inputs', and says where each is; −1: an input's.
+  std::vector<int> without_inputs(std::vector<Column>& columns) {
+    std::vector<int> place(velocity().columns.size(), -1);
+    for (std::size_t c = 0; c < place.size(); ++c) {
+      if (velocity().roles[c] == Role::input) continue;
+      place[c] = static_cast<int>(columns.size());
+      columns.push_back(whole(c));
+    }
+    return place;
+  }
+  void add_column(const std::string& name, int column, VelocityCondition::Group& group) const {
+    if (std::ranges::find(group.columns, column) != group.columns.end())
+      refuse(in_quotes(name) + " occurs twice", "each name once");
+    group.columns.push_back(column);
+  }
+
+  const Mechanism& mechanism_;
+  const std::vector<std::string> parameters_;
+  const RequirementLine* line_ = nullptr;
+  ExpressionMatrix velocity_;
+};
+
+RequirementTranslator::RequirementTranslator(const Mechanism& mechanism, const std::vector<std::string>& parameters)
+    : translator_(std::make_unique<Translator>(mechanism, parameters)) {}
+RequirementTranslator::~RequirementTranslator() = default;
+
+Conditions RequirementTranslator::run(const RequirementLine& line) { return translator_->run(line); }
+
+}  // namespace corank::symbolic
