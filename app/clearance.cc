@@ -9,6 +9,7 @@
 #include "corank/analyze/clearance/clearance.h"
 #include "corank/analyze/clearance/clearance_map.h"
 #include "corank/analyze/paths/path.h"
+#include "corank/app/ball_command.h"
 #include "corank/app/box_files.h"
 #include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
@@ -23,74 +24,18 @@
 namespace corank::app {
 namespace {
 
-struct ClearanceCommand {
-  QuestionOptions question;
-  SearchLimits limits{};  // one thread for each core
-  std::vector<std::string> at, in, ranges, best, map;
-  std::string orientation, orientation_range, orientation_of;
+struct ClearanceCommand : BallCommand {
+  std::vector<std::string> best, map;
   std::string proof_stem, output;
   double precision = 0.01;
   int grid = 24;
   JsonOption json;
 };
 
-// "±0.2", "+-0.2" about the value, or "[a,b]".
-analyze::NamedRange range_of(const std::string& text, const std::vector<analyze::NamedValue>& at,
-                             const std::string& option = "--range") {
-  const std::string expected = option == "--range" ? "NAME=[A,B], or NAME=±D if --at gives NAME" : "NAME=[A,B],…";
-  auto [name, range] = split_at_equals(text, option, expected);
-  if (range.front() == '[' && range.back() == ']') {
-    const std::vector<std::string> ends = parts_of({range.substr(1, range.size() - 2)});
-    if (ends.size() != 2) throw UsageError(fmt::format("{} {}: expected {}", option, text, expected));
-    return {name, expression(ends[0], option), expression(ends[1], option)};
-  }
-  for (const std::string sign : {"±", "+-"}) {
-    if (!range.starts_with(sign)) continue;
-    const symbolic::Expression half = expression(range.substr(sign.size()), option);
-    for (const analyze::NamedValue& v : at)
-      if (v.name == name) return {name, v.value - half, v.value + half};
-  }
-  throw UsageError(fmt::format("{} {}: expected {}", option, text, expected));
-}
-
-analyze::BallOptions ball_of(const ClearanceCommand& command) {
-  analyze::BallOptions ball;
-  ball.at = named_values(command.at, "--at");
-  ball.in = parts_of(command.in);
-  for (const std::string& part : parts_of(command.ranges)) ball.ranges.push_back(range_of(part, ball.at));
-  if (command.orientation.empty() && !command.orientation_of.empty())
-    throw UsageError("--orientation-of: without effect; expected --orientation beside it");
-  if (!command.orientation.empty()) ball.orientation = analyze::parse_rotation(command.orientation);
-  if (!command.orientation_range.empty())
-    ball.orientation_range = expression(command.orientation_range, "--orientation-range");
-  ball.orientation_of = command.orientation_of;
-  return ball;
-}
-
-// Of the set forward where none is said.
-study::Question question_of(const ClearanceCommand& command) {
-  QuestionOptions options = command.question;
-  study::Question question = load(options);
-  if (options.set.empty() && !question.model.is_plain_system())
-    options.set = options.require.empty() ? "forward" : "requirements";
-  question.set = chosen_set(options, question.model);
-  return question;
-}
-
-solve::Options options_of(const SearchLimits& limits) {
-  solve::Options options;
-  limits.apply(options);
-  options.validate();
-  return options;
-}
-
 // What the three questions have in common.
 struct ClearanceRun {
   explicit ClearanceRun(const ClearanceCommand& command)
-      : search(options_of(command.limits)),
-        run(limits_of(search, nullptr)),
-        ball(ball_of(command)),
-        question(question_of(command)) {}
+      : search(command.search()), run(limits_of(search, nullptr)), ball(command.ball()), question(command.load()) {}
 
   solve::Control& control() { return run.control(); }
 
@@ -168,8 +113,7 @@ std::vector<Standing> postures_of(ClearanceRun& run) {
 }
 
 ExitStatus run_clearance(ClearanceCommand command) {
-  if (command.at.empty()) throw UsageError("--at is required, except with --best or --map");
-  if (command.in.empty()) throw UsageError("--in is required, except with --best or --map");
+  command.require_center("except with --best or --map");
   command.json.give_back(command.question.file);
   ClearanceRun run(command);
   command.json.check();
@@ -253,37 +197,7 @@ void add_clearance(CLI::App& program, Action& action) {
       "Find how far a point, such as a position of the outputs, is from singularities: the largest ball about "
       "it that holds none");
   const auto command = std::make_shared<ClearanceCommand>();
-  command->question.add_options(*sub, "Which configurations the ball must not hold",
-                                "Then the ball holds no configuration at which one reaches its limit");
-  sub->add_option(
-         "--at", command->at,
-         "The centre of the ball, and other coordinates that keep a value; a VALUE may use the model's constants, and\n"
-         "15deg is an angle in degrees")
-      ->type_name("NAME=VALUE,...")
-      ->allow_extra_args(false);
-  sub->add_option(
-         "--in", command->in,
-         "The coordinates in which the ball lies, required unless --best or --map is given; one radian counts like one "
-         "unit of length")
-      ->type_name("NAME,...")
-      ->allow_extra_args(false);
-  sub->add_option(
-         "--range,--mode", command->ranges,
-         "Search these ranges of coordinates instead of the model's, for example to look at one working mode only, to\n"
-         "set a joint's limit, or to let an angle vary; ±D or +-D: by at most D from the value in --at; --mode is the same "
-         "option")
-      ->type_name("NAME=[A,B],NAME=±D,...")
-      ->allow_extra_args(false);
-  sub->add_option(
-         "--orientation-range", command->orientation_range,
-         "Let angles of the outputs vary by at most ANGLE from their value in --at, and the orientation of a spatial robot\n"
-         "by a turn of at most ANGLE from the one in --orientation")
-      ->type_name("ANGLE");
-  sub->add_option("--orientation", command->orientation, "Orientation of a spatial robot, such as Rz(0.2)*Ry(10deg)*Rx(0.3)")
-      ->type_name("R");
-  sub->add_option("--orientation-of", command->orientation_of,
-                  "The link or the rotation matrix that --orientation is for, if there are several")
-      ->type_name("NAME");
+  command->add_options(*sub, ", required unless --best or --map is given");
   CLI::Option* best =
       sub->add_option(
              "--best", command->best,
@@ -317,7 +231,6 @@ void add_clearance(CLI::App& program, Action& action) {
       ->type_name("NAME")
       ->excludes(best)
       ->excludes(map);
-  command->limits.add_options(*sub, "the search");
   command->json.add(*sub);
   sub->footer(
       "Without --set, the ball must not hold forward singularities; with --require, no configurations at which a\n"

@@ -18,6 +18,7 @@ void add_plot(CLI::App& program, Action& action);
 void add_report(CLI::App& program, Action& action);
 void add_sweep(CLI::App& program, Action& action);
 void add_clearance(CLI::App& program, Action& action);
+void add_tolerance(CLI::App& program, Action& action);
 void add_aspects(CLI::App& program, Action& action);
 void add_path(CLI::App& program, Action& action);
 void add_topology(CLI::App& program, Action& action);

@@ -15,7 +15,8 @@
 namespace corank::check {
 namespace {
 
-constexpr int kMostSteps = 12;  // of Newton's, until two solutions over one value are told apart
+constexpr std::size_t kPlane = 2;  // parameters that have a side in each cell
+constexpr int kMostSteps = 12;     // of Newton's, until two solutions over one value are told apart
 constexpr std::size_t kMostOverlaps = 100;
 // Parts of a search: of a cell by itself; of what a group of cells, each counted so often, leaves to one of them.
 constexpr int kPartsOfStanding = 256;  // of a sheet, until a requirement is known to be met or violated
@@ -64,9 +65,14 @@ class MapCheck {
   void fail(const std::string& what) { report_.failures.push_back(what); }
   void fail(std::size_t cell, const std::string& what) { fail("cell " + std::to_string(cell + 1) + ": " + what); }
 
+  // Of parameter k, over a cell or several.
+  Interval side(const Box& cell, std::size_t k) const {
+    return k < kPlane ? cell[k] : system_.variables[parameters_[k]].domain;
+  }
+
   std::string shape_fault(const MapCellClaim& cell) const {
-    if (cell.sides.size() != parameters_.size()) return "it does not have one side for each parameter";
-    for (std::size_t k = 0; k < parameters_.size(); ++k)
+    if (cell.sides.size() != kPlane) return "it does not have one side for each parameter";
+    for (std::size_t k = 0; k < kPlane; ++k)
       if (!system_.variables[parameters_[k]].domain.contains(cell.sides[k])) return "it is not within the map";
     if (cell.standing != Standing::open && requirements_.empty())
       return "it claims something of requirements, but the model has no requirements";
@@ -76,7 +82,7 @@ class MapCheck {
       if (sheet.box.size() != system_.variables.size() || sheet.region.size() != sheet.box.size())
         return "a sheet does not have one side for each variable";
       for (std::size_t k = 0; k < parameters_.size(); ++k)
-        if (sheet.box[parameters_[k]] != cell.sides[k]) return "a sheet is not over the cell";
+        if (sheet.box[parameters_[k]] != side(cell.sides, k)) return "a sheet is not over the cell, or not of every robot";
     }
     return {};
   }
@@ -87,7 +93,7 @@ class MapCheck {
     for (const MapCellClaim& cell : claims_.cells) boxes.push_back(&cell.sides);
     const auto apart = [&](std::size_t a, std::size_t b) {
       problem_.stop().poll();
-      for (std::size_t k = 0; k < parameters_.size(); ++k) {
+      for (std::size_t k = 0; k < kPlane; ++k) {
         const Interval &x = (*boxes[a])[k], &y = (*boxes[b])[k];
         if (x.hi() <= y.lo() || y.hi() <= x.lo()) return true;
       }
@@ -165,7 +171,7 @@ class MapCheck {
       Sides part = x;
       bool some = true;
       for (std::size_t k = 0; k < parameters_.size(); ++k)
-        some = some && part[problem_.place(parameters_[k])].intersect(Enclosure(sides[k]));
+        some = some && part[problem_.place(parameters_[k])].intersect(Enclosure(side(sides, k)));
       if (some) parts.push_back(std::move(part));
     }
     return parts;
@@ -260,7 +266,7 @@ class MapCheck {
     if (apart(x, y)) return true;
     for (std::size_t k = 0; k < parameters_.size(); ++k) {
       const std::size_t place = problem_.place(parameters_[k]);
-      x[place] = y[place] = Enclosure(cell.sides[k].mid());
+      x[place] = y[place] = Enclosure(side(cell.sides, k).mid());
     }
     for (int step = 0; step < kMostSteps; ++step) {
       problem_.stop().poll();

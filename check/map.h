@@ -1,4 +1,6 @@
-// How many solutions has a system for every value of two of its variables, the parameters, in cells of their plane?
+// How many solutions has a system for every value of two of its variables, in cells of their plane, and of those behind
+// them, which have their whole domains in each cell? All of these are the parameters; the latter are constants within
+// tolerances, so that what is shown holds for every robot.
 // Everything is found anew from the system; trusted is nothing but where to look.
 //
 //   at least   each sheet of a cell P is proven (check/sheets.h): for every p ∈ P exactly one zero x(p) in the region, at
@@ -42,7 +44,7 @@ struct MapReport : Findings {
   bool complete() const;
 };
 
-/// `parameters`: two variables of the system. Never throws for what a claim says.
+/// `parameters`: two variables of the system, then those that have their whole domains. Never throws for what a claim says.
 MapReport check_map(const System& system, const std::vector<int>& parameters, int copies,
                     const std::vector<Requirement>& requirements, const MapClaims& claims, const Options& options = {});
 

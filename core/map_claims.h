@@ -9,14 +9,16 @@
 namespace corank {
 
 /// A solution for each value of the parameters in a cell: the one in the region, and it lies in the box. In all variables;
-/// the parameters' sides are the cell's.
+/// the plane's sides are
+/// the cell's, those of constants within tolerances their whole tolerances.
 struct MapSheet {
   Box box, region;
 };
 
-/// For every value in the cell the system has one solution on each of the sheets, which all differ, and no others.
+/// For every value in the cell, of every robot within the tolerances, the system has one solution on each of the sheets,
+/// which all differ, and no others.
 struct MapCellClaim {
-  Box sides;      ///< of the two parameters
+  Box sides;      ///< of the plane's two parameters
   int count = 0;  ///< of what is asked for: ParametricSystem::copies solutions of the system are one of these
   std::vector<MapSheet> sheets;
   /// Of the requirements: satisfied where for every value in the cell all solutions meet all of them, violated where for

@@ -6,6 +6,7 @@
 #include "corank/analyze/clearance/best_center.h"
 #include "corank/analyze/clearance/clearance.h"
 #include "corank/analyze/clearance/clearance_map.h"
+#include "corank/analyze/clearance/tolerance_factor.h"
 #include "corank/analyze/maps/area_by_boundary.h"
 #include "corank/analyze/paths/path.h"
 #include "corank/analyze/topology/topology.h"
@@ -140,6 +141,22 @@ py::tuple clearance_map(const Question& question, const analyze::BallOptions& ab
       });
 }
 
+py::tuple tolerance_factor(const Question& question, const analyze::BallOptions& about, double radius, double precision,
+                           const solve::Options& search, const py::object& progress) {
+  return searched(
+      search, progress,
+      [question, about, radius, precision](const solve::Options& limits, solve::Control& control, Watcher& watcher) {
+        analyze::ToleranceFactorOptions options{.radius = radius, .precision = precision, .progress = {}};
+        options.progress = [&watcher](double lower, std::optional<double> upper) {
+          watcher.show({"tolerance", -1,
+                        upper ? fmt::format("factor in [{:.5g}, {:.5g}]", lower, *upper)
+                              : fmt::format("factor at least {:.5g}", lower)});
+        };
+        const analyze::ToleranceFactor f = analyze::tolerance_factor(question, about, options, limits, control);
+        return std::tuple(to_json(f), to_table(f));
+      });
+}
+
 Ranges declared_ranges(const Question& question, const std::vector<std::string>& names) {
   Ranges list;
   for (const analyze::NamedRange& r : analyze::declared_ranges(question, names)) list.emplace_back(r.name, r.lower, r.upper);
@@ -191,6 +208,7 @@ void bind_analyses(py::module_& module) {
   module.def("clearance", &clearance);
   module.def("best_center", &best_center);
   module.def("clearance_map", &clearance_map);
+  module.def("tolerance_factor", &tolerance_factor);
   module.def("declared_ranges", &declared_ranges);
   module.def("area", &area);
   module.def("path", &path);

@@ -24,7 +24,8 @@
 namespace corank::analyze {
 namespace {
 
-constexpr double kNothing = 1e-9;  // of the ball's room
+constexpr double kNothing = 1e-9;     // of the ball's room
+constexpr double kRoundings = 1e-12;  // of a radius, more than its square and root are off
 
 Clearance::Center center_of(const study::Question& question, const Ball& ball, const solve::Options& search,
                             const solve::Control& control) {
@@ -107,7 +108,11 @@ Clearance clearance(const study::Question& question, const BallOptions& options,
   // A singularity at the centre itself, but for rounding: no share of such a distance is to be had.
   const double nothing = kNothing * (std::isfinite(result.ball.room) ? result.ball.room : 1.0);
   result.nearest = nearest(prepared, differences,
-                           {.precision = wanted.precision, .enough = nothing, .progress = wanted.progress}, control);
+                           {.precision = wanted.keep > 0 ? kRoundings : wanted.precision,
+                            .at_most = wanted.keep * (1 + kRoundings),
+                            .enough = wanted.keep > 0 ? std::nextafter(wanted.keep, 0) : nothing,
+                            .progress = wanted.progress},
+                           control);
   if (result.nearest.upper && *result.nearest.upper <= nothing) result.nearest.complete = true;
   if (result.nearest.upper) {
     result.values = coordinate_values(system, result.nearest.box);

@@ -18,6 +18,7 @@ namespace corank::analyze {
 struct ClearanceOptions {
   double precision = 0.01;   ///< of the radius, relative
   bool check_center = true;  ///< is there a configuration at the centre?
+  double keep = 0;           ///< where > 0: is the radius at least this? The search ends once that is known
   std::function<void(double lower, std::optional<double> upper, std::uint64_t processed)> progress{};
 };
 

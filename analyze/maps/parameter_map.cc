@@ -63,7 +63,8 @@ std::optional<MapAnswer> map_answer_from_string(const std::string& text) {
 struct ParameterMapper::Parts {
   /// Of MapAnswer::solutions.
   struct Family {
-    std::vector<int> parameters;  // of the reduced system
+    std::vector<int> parameters;  // of the reduced system: two, then the constants within tolerances
+    std::vector<std::pair<std::string, Interval>> tolerances;  // of the latter
     certify::Reduction reduction;
     std::unique_ptr<const solve::Problem> problem;
     int copies = 1;
@@ -80,6 +81,10 @@ struct ParameterMapper::Parts {
   /// Of a tile.
   Box sides_of(int number) const {
     return {part_of(region[0], number % kTiles, kTiles), part_of(region[1], number / kTiles, kTiles)};
+  }
+  Box of_every_robot(Box sides) const {
+    for (const auto& [name, tolerance] : family->tolerances) sides.push_back(tolerance);
+    return sides;
   }
   int depth() const { return std::bit_width(static_cast<unsigned>(options.resolution / kTiles)) - 1; }
   void make_family();
@@ -108,6 +113,7 @@ void ParameterMapper::Parts::make_family() {
     const auto kept = std::ranges::find(f.reduction.kept, p);
     CORANK_CHECK(kept != f.reduction.kept.end());
     f.parameters.push_back(static_cast<int>(kept - f.reduction.kept.begin()));
+    if (f.parameters.size() > 2) f.tolerances.emplace_back(system.variables[p].name, system.variables[p].domain);
   }
   const auto given = static_cast<int>(system.equations.size()),
              unknowns = system.size() - static_cast<int>(parameters.size());
@@ -138,7 +144,6 @@ void ParameterMapper::Parts::make_folds() {
 ParameterMapper::ParameterMapper(MapQuestion question, const ParameterMapOptions& options) {
   auto parts = std::make_unique<Parts>(Parts{std::move(question), options, {}, {}});
   const MapQuestion& q = parts->question;
-  study::require_exact_constants(q.question.model, "corank map");
   const symbolic::Mechanism& model = q.question.model;
   const symbolic::SourceLocation place{model.name(), 0, 0};
   if (q.over.size() != 2) throw ModelError(place, "a map has two parameters", "--over NAME=FROM:TO twice");
@@ -151,8 +156,10 @@ ParameterMapper::ParameterMapper(MapQuestion question, const ParameterMapOptions
   }
   if (q.question.assembly) symbolic::check_conditions(model, q.question.assembly->conditions, q.over);
   if (q.answer == MapAnswer::solutions) {
+    for (const symbolic::FixedCoordinate& f : q.fixed) study::require_exact_value(model, f.value, f.name);
     parts->make_family();
   } else {
+    study::require_exact_constants(model, std::string("a map of ") + to_string(q.answer));
     if (!q.fixed.empty()) throw ModelError(place, "only solutions are counted over fixed coordinates", "no --fix");
     for (const symbolic::Parameter& p : q.over)
       if (!model.has_constant(p.name))
@@ -181,7 +188,7 @@ MapTile ParameterMapper::Parts::count(int number, solve::Control& control) const
   {
     const UpwardRounding rounding;
     solve::CellSearch search(*family->problem, family->parameters);
-    divide(search, search.whole(sides, family->reduction.system.domain()), 0, tile, roots, control);
+    divide(search, search.whole(of_every_robot(sides), family->reduction.system.domain()), 0, tile, roots, control);
     tile.processed = search.processed();
   }
   tile.boundary_known = family->folds.has_value();
@@ -191,6 +198,7 @@ MapTile ParameterMapper::Parts::count(int number, solve::Control& control) const
 
 void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterCell cell, int level, MapTile& tile,
                                     std::vector<Box>& roots, solve::Control& control) const {
+  const Box sides{cell.sides[0], cell.sides[1]};
   const bool last = level == depth();
   const double share = 1.0 / (kTiles << level);
   bool finished =
@@ -204,23 +212,23 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
   if (solutions && (last || standing != Standing::open)) {
     const auto count = static_cast<int>(solutions->size());
     CORANK_CHECK(count % family->copies == 0);
-    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::proven, count / family->copies, {}, standing});
+    tile.cells.push_back({sides, MapCellAnswer::Kind::proven, count / family->copies, {}, standing});
     if (options.certificate) tile.cells.back().sheets = sheets_of(cell, *solutions);
     return;
   }
   if (!finished) {
-    tile.cells.push_back({cell.sides, MapCellAnswer::Kind::pending});
+    tile.cells.push_back({sides, MapCellAnswer::Kind::pending});
     return;
   }
   if (!last) {
     for (int k = 0; k < 4; ++k) {
-      const Box part{part_of(cell.sides[0], k % 2, 2), part_of(cell.sides[1], k / 2, 2)};
-      divide(search, search.part(cell, part), level + 1, tile, roots, control);
+      const Box part{part_of(sides[0], k % 2, 2), part_of(sides[1], k / 2, 2)};
+      divide(search, search.part(cell, of_every_robot(part)), level + 1, tile, roots, control);
     }
     return;
   }
-  MapCellAnswer answer{cell.sides, MapCellAnswer::Kind::undecided};
-  solve::ParameterCell centre = search.part(cell, {Interval(cell.sides[0].mid()), Interval(cell.sides[1].mid())});
+  MapCellAnswer answer{sides, MapCellAnswer::Kind::undecided};
+  solve::ParameterCell centre = search.part(cell, of_every_robot({Interval(sides[0].mid()), Interval(sides[1].mid())}));
   search.refine(centre, kCentreShare, kMostOfCentre, control);
   if (const auto there = search.solutions(centre)) answer.at_centre = static_cast<int>(there->size()) / family->copies;
   tile.cells.push_back(std::move(answer));
@@ -285,7 +293,7 @@ void ParameterMapper::Parts::find_folds(std::vector<Box> roots, MapTile& tile, s
   tile.boundary_known = cover.complete();
   for (const CoverBox& box : cover.boxes) {
     Box sides;
-    for (const int p : family->parameters) sides.push_back(box.box[p]);
+    for (std::size_t k = 0; k < 2; ++k) sides.push_back(box.box[family->parameters[k]]);
     const bool proven = box.verdict == Verdict::regular || box.verdict == Verdict::boundary || box.verdict == Verdict::exact;
     tile.boundary.push_back({std::move(sides), proven});
   }
@@ -334,6 +342,7 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
   map.region = p.region;
   for (const symbolic::FixedCoordinate& f : p.question.fixed) map.fixed.emplace_back(f.name, f.value.text());
   if (p.family) map.require = p.question.question.model.requirement_texts();
+  if (p.family) map.tolerances = p.family->tolerances;
   map.resolution = p.options.resolution;
   std::vector<bool> there(ParameterMapper::tiles(), false);
   map.boundary_known = p.family.has_value();

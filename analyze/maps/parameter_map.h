@@ -42,7 +42,7 @@ inline constexpr int kTiles = 8;  ///< along each side
 
 struct MapCellAnswer {
   enum class Kind {
-    proven,     ///< `count` for every value of the parameters in the cell
+    proven,     ///< `count` for every value of the parameters in the cell, of every robot within the tolerances
     undecided,  ///< nothing is known of the whole cell
     centre,     ///< nobody asked for more than the centre
     pending     ///< not examined: a limit
@@ -80,6 +80,8 @@ struct ParameterMap {
   Box region;
   std::vector<std::pair<std::string, std::string>> fixed;
   std::vector<std::string> require;  ///< of MapAnswer::solutions: the model's requirements
+  /// Of MapAnswer::solutions: every number, requirement and piece of the boundary is one of each robot within these.
+  std::vector<std::pair<std::string, Interval>> tolerances;
   int resolution = 0;
   std::vector<MapCellAnswer> cells;      ///< sorted by their lower ends; they share sides, and cover the region
   std::vector<MapBoundaryBox> boundary;  ///< likewise sorted
@@ -127,7 +129,7 @@ result::MapFile to_file(const MapQuestion& question, const ParameterMap& map);
 std::string to_table(const ParameterMap& map);
 /// x_lo, x_hi, y_lo, y_hi, kind, count, at_centre in each row, after a heading; with requirements also standing.
 std::string to_csv(const ParameterMap& map);
-/// {"model", "set", "count", "over": {name: [lo, hi]}, "fixed", "resolution", "cells": [[x_lo, x_hi, y_lo, y_hi, kind,
+/// {"model", "set", "count", "over": {name: [lo, hi]}, "fixed", "tolerances": {name: [lo, hi]}, "resolution", "cells": [[x_lo, x_hi, y_lo, y_hi, kind,
 /// count, at_centre, standing]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]], "shares" …}; doc/maps.md.
 std::string to_json(const ParameterMap& map);
 /// For transport: a tile without its sheets as text, and back. Throws std::invalid_argument.

@@ -86,10 +86,13 @@ result::MapFile to_file(const MapQuestion& question, const ParameterMap& map) {
 }
 
 std::string to_table(const ParameterMap& map) {
-  const auto range = [&](std::size_t k) {
+  const auto of = [&](std::size_t k) {
     return fmt::format("{} in [{:.6g}, {:.6g}]", map.names[k], map.region[k].lo(), map.region[k].hi());
   };
-  std::string text = fmt::format("{}, {}: {}, {}\n", map.model, map.set, range(0), range(1));
+  std::string text = fmt::format("{}, {}: {}, {}\n", map.model, map.set, of(0), of(1));
+  for (const auto& [name, range] : map.tolerances)
+    text += fmt::format("  {:<22}with {} in [{:.6g}, {:.6g}]\n", &name == &map.tolerances[0].first ? "every robot" : "",
+                        name, range.lo(), range.hi());
   const bool sampled = map.answer != MapAnswer::solutions;
   for (const auto& [n, share] : map.shares())
     text += fmt::format("  {:<22}{}{}\n", fmt::format("{} {}", n, noun(map, n)), percent(share),
@@ -142,6 +145,8 @@ std::string to_json(const ParameterMap& map) {
     for (const Standing s : {Standing::satisfied, Standing::violated, Standing::open})
       json["standings"][to_string(s)] = map.share_where(s);
   }
+  json["tolerances"] = Json::object();
+  for (const auto& [name, range] : map.tolerances) json["tolerances"][name] = {range.lo(), range.hi()};
   json["resolution"] = map.resolution;
   json["complete"] = map.complete;
   json["shares"] = Json::object();

@@ -47,7 +47,8 @@ std::optional<System> fold_system(const System& system, const std::vector<int>& 
   const int n = system.size();
   const std::vector<int> unknowns = solve::other_variables(parameters, n);
   for (const int j : unknowns) result.variables[j].auxiliary = true;
-  for (const int p : parameters) result.variables[p].kind = VariableKind::length;
+  for (const int p : parameters)
+    if (!system.variables[p].is_parameter()) result.variables[p].kind = VariableKind::length;
   result.configuration_size = n;
 
   Polynomial norm{{Monomial(ExactNumber(-1), {})}, "norm of xi"}, half{{}, "half-space of xi"};

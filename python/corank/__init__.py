@@ -12,7 +12,7 @@ reads a ``Result`` from a file.
 
 from . import _corank
 from ._corank import Expression, Relation
-from .analyses import Analysis, Aspects, BestCenter, Bounds, Clearance, ClearanceMap, Cusp, Topology
+from .analyses import Analysis, Aspects, BestCenter, Bounds, Clearance, ClearanceMap, Cusp, ToleranceFactor, Topology
 from .errors import Interrupted, ModelError, OptionError, ResultFileError
 from .expression import as_expression, as_relation, cos, degrees, linspace, pi, sin, sqrt, tan
 from .mapping import ParameterMap
@@ -61,6 +61,7 @@ __all__ = [
     "SETS",
     "Sigma",
     "Sweep",
+    "ToleranceFactor",
     "Topology",
     "USUAL_SETS",
     "VERDICTS",

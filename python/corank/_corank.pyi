@@ -230,6 +230,9 @@ def aspects(
 def clearance(
     question: Question, ball: Ball, precision: float, claims: bool, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[Result], Optional[Result], Optional[BaseException]]: ...
+def tolerance_factor(
+    question: Question, ball: Ball, radius: float, precision: float, options: Options, progress: Any
+) -> Tuple[str, str, Optional[BaseException]]: ...
 def best_center(
     question: Question, ball: Ball, region: _Ranges, precision: float, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[BaseException]]: ...

@@ -169,6 +169,29 @@ class Clearance(Analysis):
         self.free, self.nearest_result = free, nearest
 
 
+class ToleranceFactor(Analysis):
+    """By which factor all tolerances may grow, while every robot within them keeps a clearance.
+
+    Attributes:
+        lower: every robot within `lower` times the tolerances keeps the clearance, proven.
+        upper: some robot within `upper` times the tolerances does not, proven; 0: the robot as drawn does not; None: no such
+            robot is proven to exist.
+        tolerances: (lower, upper) of each constant at the factor `lower`.
+        robot: the constants of the robot that proves `upper`, intervals by name.
+        nearest: its singularity nearer than the clearance, intervals by coordinate; None if there is none.
+        reason: why the bounds are not closer, or why there is no upper one; None if they are as close as asked for.
+    """
+
+    def __init__(self, text: str, table: str) -> None:
+        super().__init__(text, table)
+        self.lower: float = self.data["factor"]["lo"]
+        self.upper: Optional[float] = self.data["factor"]["hi"]
+        self.tolerances = _values(self.data["tolerances"])
+        self.robot = _values(self.data["robot"])
+        self.nearest = None if self.data["nearest"] is None else _values(self.data["nearest"])
+        self.reason: Optional[str] = self.data["reason"]
+
+
 class BestCenter(Clearance):
     """The centre of the largest free ball in a region.
 
@@ -308,6 +331,20 @@ def clearance(
         )
     proven = [None if core is None else Result(core) for core in (free, nearest)]
     return deliver(Clearance(text, table, *proven), raised)
+
+
+def tolerance_factor(
+    self: "Mechanism", clearance: float, at: Mapping[str, ExpressionLike], within: Sequence[str], **others: Any
+) -> ToleranceFactor:
+    """Finds by which factor all tolerances may grow, while every robot within them keeps this clearance. The tolerance
+    [a, b] of a constant with the nominal value v becomes [v + s (a - v), v + s (b - v)] for the factor s. The other arguments
+    are those of clearance(), except claims."""
+    about = _about(self, at, within, **others)
+    with Shown(about.progress) as show:
+        text, table, raised = _corank.tolerance_factor(
+            about.question, about.ball, clearance, about.precision, about.options, show
+        )
+    return deliver(ToleranceFactor(text, table), raised)
 
 
 def best_center(self: "Mechanism", region: Mapping[str, RangeLike], **others: Any) -> BestCenter:

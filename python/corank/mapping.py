@@ -34,6 +34,7 @@ class ParameterMap(Analysis, Certified):
         proven_share: the share of the plane's area where the number is known for every value.
         complete: was the whole plane examined?
         require: what every solution is to meet; empty if nothing is required.
+        tolerances: (lower, upper) of each constant that has a tolerance: what is proven holds for every robot within them.
         standings: with requirements, the shares of the area where they are "satisfied", "violated" and "open".
         boundary_known: do the boxes of boundary() hold all values in undecided cells at which two solutions meet?
     """
@@ -52,6 +53,7 @@ class ParameterMap(Analysis, Certified):
         self.proven_share: float = self.data["proven_share"]
         self.complete: bool = self.data["complete"]
         self.require: List[str] = self.data.get("require", [])
+        self.tolerances: Dict[str, Tuple[float, float]] = {n: (lo, hi) for n, (lo, hi) in self.data["tolerances"].items()}
         self.standings: Dict[str, float] = self.data.get("standings", {})
         self.boundary_known: bool = self.data["boundary_known"]
 

@@ -334,6 +334,7 @@ class Mechanism:
         return deliver(analyses.Aspects(json, text, file), raised)
 
     clearance = analyses.clearance
+    tolerance_factor = analyses.tolerance_factor
     best_center = analyses.best_center
     clearance_map = analyses.clearance_map
     area = analyses.area

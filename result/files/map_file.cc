@@ -141,7 +141,7 @@ struct ConfirmedShares {
 ConfirmedShares confirmed_shares(const check::MapReport& report, const MapFile& file) {
   double all = 1;
   const symbolic::FamilySystem family = family_of(file);
-  for (const int p : family.parameters) all *= family.system.variables[p].domain.width();
+  for (const int p : {family.parameters.at(0), family.parameters.at(1)}) all *= family.system.variables[p].domain.width();
   ConfirmedShares shares;
   for (std::size_t c = 0; c < report.cells.size(); ++c) {
     const MapCellClaim& cell = file.claims.cells[c];
@@ -160,8 +160,13 @@ ConfirmedShares confirmed_shares(const check::MapReport& report, const MapFile& 
 
 std::string to_table(const check::MapReport& report, const MapFile& file) {
   const std::size_t all = report.cells.size();
-  std::string text = fmt::format("{}: numbers of solutions over {} and {}\n", printable_line(file.model),
-                                 printable_line(file.family.over.at(0).name), printable_line(file.family.over.at(1).name));
+  const symbolic::FamilySystem family = family_of(file);
+  std::vector<std::string> toleranced;
+  for (std::size_t k = file.family.over.size(); k < family.parameters.size(); ++k)
+    toleranced.push_back(family.system.variables[family.parameters[k]].name);
+  std::string text = fmt::format("{}: numbers of solutions over {} and {}{}\n", printable_line(file.model),
+                                 printable_line(file.family.over.at(0).name), printable_line(file.family.over.at(1).name),
+                                 of_every_robot(toleranced));
   text += fmt::format("  cells  claimed: {}; confirmed: at least as many in {}, at most as many in {}; {} sheets\n", all,
                       report.at_least(), report.completed(), report.sheets);
   ConfirmedShares shares = confirmed_shares(report, file);

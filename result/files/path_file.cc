@@ -91,15 +91,14 @@ check::TubeReport verify(const PathFile& file, const check::Options& options) {
 }
 
 std::string to_table(const check::TubeReport& report, const PathFile& file) {
-  const std::vector<std::string> toleranced = model_of(file).toleranced();
   std::string text = fmt::format(
       "{}: a path without {}{}\n  nodes     {} of {} confirmed\n  pieces    {} of {}\n"
       "  radius    {:.3g}\n",
       printable_line(file.model),
       file.avoid == "requirements" ? "limits of requirements"
                                    : (file.avoid == "both" ? "forward and inverse" : file.avoid) + " singularities",
-      toleranced.empty() ? "" : fmt::format(", of every robot within the tolerances of {}", fmt::join(toleranced, ", ")),
-      report.nodes, file.tube.nodes.size(), report.pieces, file.tube.pieces.size(), file.tube.radius());
+      of_every_robot(model_of(file).toleranced()), report.nodes, file.tube.nodes.size(), report.pieces,
+      file.tube.pieces.size(), file.tube.radius());
   text += failure_lines(report.failures);
   return text + (report.verified() ? "verified\n" : report.failures.empty() ? "interrupted\n" : "NOT VERIFIED\n");
 }

@@ -1,5 +1,7 @@
 #include "corank/result/files/source_group.h"
 
+#include <fmt/ranges.h>
+
 #include "corank/result/files/output_file.h"
 
 namespace corank::result {
@@ -42,6 +44,10 @@ std::vector<std::string> names(const System& system) {
   std::vector<std::string> list;
   for (const Variable& v : system.variables) list.push_back(v.name);
   return list;
+}
+
+std::string of_every_robot(const std::vector<std::string>& toleranced) {
+  return toleranced.empty() ? "" : fmt::format(", of every robot within the tolerances of {}", fmt::join(toleranced, ", "));
 }
 
 PolynomialMatrix polynomials(const symbolic::TrigonometricSystem& system, const symbolic::ExpressionMatrix& matrix) {

@@ -38,6 +38,8 @@ inline constexpr auto kConstant = [](auto& field, auto& constant) {
 };
 
 std::vector<std::string> names(const System& system);
+/// ", of every robot within the tolerances of a, b"; nothing without tolerances.
+std::string of_every_robot(const std::vector<std::string>& toleranced);
 /// The matrix in the variables of the system's polynomials.
 PolynomialMatrix polynomials(const symbolic::TrigonometricSystem& system, const symbolic::ExpressionMatrix& matrix);
 

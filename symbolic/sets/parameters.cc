@@ -126,6 +126,10 @@ class Family {
     for (const Parameter& p : parameters_) {
       if (!is_free(p.lower) || !is_free(p.upper))
         refuse("the range of " + in_quotes(p.name) + " depends on a parameter", "numbers");
+      for (const Expression& end : {p.lower, p.upper})
+        if (const std::string name = mechanism_.toleranced_in(end); !name.empty())
+          refuse("the range of " + in_quotes(p.name) + " depends on " + in_quotes(name) + ", which has a tolerance",
+                 "the same range for all robots");
       ranges_[p.name] = Interval::hull(exact_value(mechanism_, p.lower, p.name).enclose(),
                                        exact_value(mechanism_, p.upper, p.name).enclose());
       if (!(ranges_[p.name].width() > 0) || !ranges_[p.name].is_bounded())
@@ -160,14 +164,18 @@ class Family {
     c = with_range(c, range);
   }
 
-  // Over all values of the parameters.
+  // Over all values of the parameters, and of every robot.
   std::optional<Interval> try_enclose(const Expression& e) const {
     return range_of(e, [this](const Expression& part) -> std::optional<Interval> {
-      if (is_free(part)) return exact_value(mechanism_, part, part.text()).enclose();
-      if (part.kind() == Expression::Kind::symbol) return ranges_.at(part.name());
-      return std::nullopt;
+      if (is_free(part) && mechanism_.toleranced_in(part).empty()) return exact(part);
+      if (part.kind() != Expression::Kind::symbol) return std::nullopt;
+      if (const auto known = ranges_.find(part.name()); known != ranges_.end()) return known->second;
+      const auto constant = std::ranges::find(mechanism_.constants(), part.name(), &Constant::name);
+      if (const auto& t = constant->tolerance) return Interval::hull(exact(t->lower), exact(t->upper));
+      return try_enclose(constant->value);
     });
   }
+  Interval exact(const Expression& e) const { return exact_value(mechanism_, e, e.text()).enclose(); }
   Interval enclosed(const Expression& e, const Coordinate& of) const {
     if (const std::optional<Interval> range = try_enclose(e)) return *range;
     refuse("the range of " + in_quotes(of.name) + ", " + e.text() + ", is not bounded over the parameters",
@@ -230,6 +238,8 @@ FamilySystem family_system(const Mechanism& mechanism, const FamilyQuestion& que
   const ParametricSystem parametric = with_parameters(mechanism, std::move(equations), question.over, question.fixed);
   FamilySystem family{algebrize(parametric.system), {}, parametric.copies};
   family.parameters = mark_parameters(parametric, family.system);
+  for (int j = 0; j < family.system.size(); ++j)
+    if (family.system.variables[j].is_parameter()) family.parameters.push_back(j);
   family.requirements = requirements.in(family.system);
   return family;
 }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "corank/analyze/clearance/clearance.h"
+#include "corank/analyze/clearance/tolerance_factor.h"
 #include "corank/result/files/verification.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model/model_file.h"
@@ -122,6 +123,43 @@ TEST(ToleratedClearance, OfARobotFromPartsHoldsForEachRobot) {
     EXPECT_GE(*one.nearest.upper, all.nearest.lower);
     EXPECT_LT(all.nearest.lower, one.nearest.lower) << "another robot is worse";
   }
+}
+
+// The clearance at the factor is the radius, from both sides.
+TEST(ToleranceFactor, IsWhereTheWorstRobotJustKeepsTheRadius) {
+  for (const double radius : {0.15, 0.1, 0.159}) {
+    solve::Control control;
+    const ToleranceFactor f = tolerance_factor(robot("dextar.cuik", links(0.001)), kBall, {.radius = radius}, {}, control);
+    ASSERT_TRUE(f.complete && f.upper) << f.reason;
+    EXPECT_LE(*f.upper, f.lower * 1.01 * (1 + 1e-12));
+    EXPECT_EQ(f.robot.size(), 5u);
+    EXPECT_GE(clearance_for_all(robot("dextar.cuik", links(0.001 * f.lower)), kBall).nearest.upper, radius);
+    EXPECT_LT(clearance_for_all(robot("dextar.cuik", links(0.001 * *f.upper)), kBall).nearest.lower, radius);
+    const auto of = [&](const char* name) { return std::ranges::find(f.robot, name, &CoordinateValue::name)->value.mid(); };
+    EXPECT_LT(distance({of("l2"), of("l3"), of("l4"), of("l5"), of("d")}), radius + 1e-5);
+    for (const CoordinateValue& t : f.tolerances)
+      EXPECT_NEAR(t.value.width(), 0.002 * f.lower, 1e-9) << t.name << ", nested about its nominal value";
+  }
+}
+
+TEST(ToleranceFactor, IsZeroWhereTheRobotAsDrawnFallsShort) {
+  solve::Control control;
+  const study::Question question = robot("dextar.cuik", links(0.001));
+  const ToleranceFactor none = tolerance_factor(question, kBall, {.radius = 0.16}, {}, control);
+  EXPECT_EQ(none.lower, 0);
+  EXPECT_EQ(none.upper, 0.0);
+  EXPECT_TRUE(none.complete && !none.nearest.empty());
+  EXPECT_THROW(tolerance_factor(robot("dextar.cuik", {}), kBall, {.radius = 0.1}, {}, control), symbolic::ModelError)
+      << "no tolerance";
+  EXPECT_THROW(tolerance_factor(question, kBall, {.radius = 0}, {}, control), symbolic::ModelError);
+}
+
+TEST(ToleranceFactor, SaysWhatItKnowsWhereALimitEndsIt) {
+  solve::Control control({.boxes = 40});
+  const ToleranceFactor f =
+      tolerance_factor(robot("dextar.cuik", links(0.001)), kBall, {.radius = 0.15, .precision = 1e-6}, {}, control);
+  EXPECT_FALSE(f.complete);
+  EXPECT_FALSE(f.reason.empty());
 }
 
 }  // namespace

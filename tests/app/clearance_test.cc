@@ -50,6 +50,15 @@ TEST(Clearance, WritesJson) {
   EXPECT_EQ(c["stopped"], nullptr);
 }
 
+TEST(Tolerance, MayGrowByTheFactorOfTheManual) {
+  const Outcome outcome = run_corank({"tolerance", model("dextar"), "-D", "l=0.90±0.001", "-D", "d=1.18±0.001", "--keep",
+                                      "clearance >= 0.15", "--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const std::string factor = "factor of the tolerances in [11.3125, 11.375]";
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr(factor), HasSubstr("within the upper bound there is a robot that does not")));
+  EXPECT_THAT(read_text(std::string(CORANK_SOURCE_DIR) + "/doc/as_built.md"), HasSubstr(factor));
+}
+
 TEST(Clearance, WritesWhatVerifyConfirms) {
   const TemporaryFolder folder;
   const Outcome outcome = run_corank(of("dextar", with(kBallOfDextar, {"--proof", folder.file("c")})));

@@ -62,6 +62,15 @@ def test_the_clearance_of_dextar_is_bounded_from_both_sides(dextar):
     assert c.free.verify().complete and len(c.free) == 0 and c.nearest_result.verify()
 
 
+def test_tolerances_may_grow_until_a_robot_falls_short(models):
+    m = corank.load(models / "dextar.cuik", l="0.9±0.001", d="1.18±0.001")
+    f = m.tolerance_factor(0.15, {"J3x": 0.5, "J3y": 1}, ["J3x", "J3y"], precision=0.1)
+    assert f.lower < 11.37 < f.upper <= 1.1 * f.lower and f.reason is None
+    assert f.tolerances["l"].hi == pytest.approx(0.9 + 0.001 * f.lower)
+    assert f.robot["d"].mid == pytest.approx(1.18 + 0.001 * f.upper) and "J3x" in f.nearest
+    assert "factor of the tolerances" in str(f)
+
+
 def test_the_best_centre_has_more_clearance_than_another(dextar):
     best = dextar.best_center({"J3x": (0.4, 0.8), "J3y": (0.8, 1.2)}, precision=0.1)
     assert set(best.center) == {"J3x", "J3y"} and best.lower > 0

@@ -82,6 +82,18 @@ def test_requirements_are_met_violated_or_open(dextar):
         dextar.map(over, require=["amplification(x) <= 1"])
 
 
+def test_what_holds_for_every_robot_is_less_than_for_the_one_drawn(dextar, models):
+    over = {"J3x": (0.25, 1), "J3y": (0.3, 0.8)}
+    drawn = dextar.map(over, require="amplification(outputs) <= 2", resolution=32)
+    every = corank.load(models / "dextar.cuik", l="0.9±0.002").map(
+        over, require="amplification(outputs) <= 2", resolution=32
+    )
+    assert every.tolerances == {"l": (pytest.approx(0.898), pytest.approx(0.902))} and not drawn.tolerances
+    assert every.at(0.59, 0.55) is True and drawn.at(0.59, 0.55) is True
+    assert 0 < every.standings["satisfied"] < drawn.standings["satisfied"]
+    assert "every robot" in str(every)
+
+
 def test_what_has_no_number_is_refused(cubic, dextar):
     with pytest.raises(corank.ModelError, match="no number of solutions"):
         dextar.map({"l2": (1, 2), "l3": (1, 2)})

@@ -1,0 +1,205 @@
+#include "corank/analyze/clearance/tolerance_factor.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "corank/analyze/clearance/json.h"
+#include "corank/core/exact_number.h"
+#include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/sets/parameters.h"
+
+namespace corank::analyze {
+namespace {
+
+using symbolic::Expression;
+
+constexpr double kMost = 1024, kLeast = 1.0 / (1 << 20);  // factors
+constexpr std::uint64_t kMostOfStep = 2'000'000;          // boxes
+
+symbolic::Tolerance scaled(const symbolic::Constant& c, double factor) {
+  const Expression s = symbolic::parse_expression(ExactNumber::dyadic(factor).text(), "factor");
+  return {c.value + s * (c.tolerance->lower - c.value), c.value + s * (c.tolerance->upper - c.value)};
+}
+
+// Throws ModelError where the robots of some tolerances may have other equations.
+study::Question scaled(study::Question question, double factor) {
+  std::vector<symbolic::Parameter> wider;
+  const symbolic::Mechanism drawn = question.model;
+  for (const symbolic::Constant& c : drawn.constants()) {
+    if (!c.tolerance) continue;
+    const symbolic::Tolerance tolerance = scaled(c, factor);
+    wider.push_back({c.name, tolerance.lower, tolerance.upper});
+    question.model.set_constant(c.name, c.value, tolerance);
+  }
+  if (question.assembly) symbolic::check_conditions(drawn.nominal(), question.assembly->conditions, wider);
+  return question;
+}
+
+class FactorSearch {
+ public:
+  FactorSearch(const study::Question& question, const BallOptions& ball, const ToleranceFactorOptions& options,
+               const solve::Options& search, solve::Control& control)
+      : question_(question), ball_(ball), options_(options), search_(search), control_(control) {}
+
+  void run(ToleranceFactor& result) {
+    drawn(result);
+    if (result.upper || !result.reason.empty()) return;
+    for (double s = 1; !closed(result); s = next(result)) {
+      if (result.lower >= kMost) {
+        result.reason = fmt::format("every robot within {:g} times the tolerances keeps it", kMost);
+        result.complete = true;
+        return;
+      }
+      if (s < kLeast) result.reason = "the radius is that of the robot as drawn, or nearly";
+      if (!result.reason.empty() || !decide(s, result)) return;
+      if (options_.progress) options_.progress(result.lower, result.upper);
+    }
+    result.complete = true;
+  }
+
+ private:
+  bool closed(const ToleranceFactor& r) const { return r.upper && *r.upper <= r.lower * (1 + options_.precision); }
+
+  static double next(const ToleranceFactor& r) {
+    if (!r.upper) return 2 * r.lower;
+    return r.lower > 0 ? (r.lower + *r.upper) / 2 : *r.upper / 4;
+  }
+
+  void drawn(ToleranceFactor& result) {
+    study::Question question = question_;
+    question.model = question.model.nominal();
+    const Clearance found = clearance_of(question, true, result);
+    if (keeps(found)) return;
+    if (!falls_short(found)) return stop(found, "of the robot as drawn", result);
+    result.upper = 0;
+    result.nearest = found.values;
+    result.complete = true;
+  }
+
+  // False: the end, for the result's reason.
+  bool decide(double factor, ToleranceFactor& result) {
+    Clearance found;
+    try {
+      found = clearance_of(scaled(question_, factor), false, result);
+    } catch (const symbolic::ModelError& error) {
+      if (result.steps < 2) throw;  // of the tolerances that were given
+      result.reason = fmt::format("{:g} times the tolerances: {}", factor, error.what());
+      return false;
+    }
+    if (keeps(found)) {
+      result.lower = factor;
+    } else if (falls_short(found)) {
+      result.upper = factor;
+      result.robot = found.robot;
+      result.nearest = found.values;
+    } else {
+      stop(found, fmt::format("{:g} times the tolerances", factor), result);
+      return false;
+    }
+    return true;
+  }
+
+  Clearance clearance_of(const study::Question& question, bool check_center, ToleranceFactor& result) {
+    std::uint64_t most = kMostOfStep;
+    if (const std::uint64_t all = control_.limits().boxes; all > 0)
+      most = std::clamp<std::uint64_t>(all > result.processed ? all - result.processed : 0, 1, most);
+    solve::Control part(control_.rest(0, most));
+    Clearance found =
+        clearance(question, ball_, {.precision = options_.precision, .check_center = check_center, .keep = options_.radius},
+                  search_, part);
+    if (check_center) result.ball = found.ball;
+    ++result.steps;
+    result.processed += found.nearest.statistics.processed;
+    return found;
+  }
+
+  bool keeps(const Clearance& c) const { return c.nearest.empty || c.nearest.lower >= options_.radius; }
+  bool falls_short(const Clearance& c) const { return c.nearest.upper && *c.nearest.upper < options_.radius; }
+  void stop(const Clearance& c, const std::string& where, ToleranceFactor& result) const {
+    result.reason =
+        where + ": " +
+        (c.stopped.empty() ? "whether the radius is kept is neither proven nor excluded" : "stopped by " + c.stopped);
+  }
+
+  study::Question question_;
+  const BallOptions& ball_;
+  const ToleranceFactorOptions& options_;
+  const solve::Options& search_;
+  solve::Control& control_;
+};
+
+std::string keep_text(const ToleranceFactor& f) { return fmt::format("clearance >= {:g}", f.radius); }
+
+}  // namespace
+
+ToleranceFactor tolerance_factor(const study::Question& question, const BallOptions& ball,
+                                 const ToleranceFactorOptions& options, const solve::Options& search,
+                                 solve::Control& control) {
+  const auto start = std::chrono::steady_clock::now();
+  if (question.model.toleranced().empty())
+    throw question_error(question, "no constant has a tolerance", "one at least, such as l := 0.9 ± 0.001");
+  if (!(options.radius > 0) || !std::isfinite(options.radius))
+    throw question_error(question, fmt::format("the radius to keep is {}", options.radius), "a positive number");
+  ToleranceFactor result;
+  result.radius = options.radius;
+  result.precision = options.precision;
+  FactorSearch(question, ball, options, search, control).run(result);
+  result.ball.question = question;
+  for (const symbolic::Constant& c : question.model.constants()) {
+    if (!c.tolerance) continue;
+    const symbolic::Tolerance t = scaled(c, result.lower);
+    const auto at = [&](const Expression& e) { return symbolic::exact_value(question.model, e, c.name).enclose(); };
+    result.tolerances.push_back({c.name, Interval::hull(at(t.lower), at(t.upper))});
+  }
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+std::string to_table(const ToleranceFactor& f) {
+  std::vector<std::string> at;
+  for (const NamedValue& v : f.ball.center) at.push_back(fmt::format("{} = {}", v.name, v.value.text()));
+  std::string text = fmt::format("{}, {}: ball in {} about {}\n", f.ball.question.model.name(), f.ball.set_name(),
+                                 fmt::join(f.ball.names(), ", "), fmt::join(at, ", "));
+  for (const std::string& r : f.ball.question.model.requirement_texts())
+    if (symbolic::definition(f.ball.question.set).of_requirements) text += fmt::format("required: {}\n", r);
+  text += fmt::format("every robot is to keep: {}\n", keep_text(f));
+  if (f.upper == 0) {
+    text += "the robot as drawn does not keep it; its nearest configuration of the set, proven to exist:\n";
+  } else {
+    text += fmt::format("factor of the tolerances in [{}, {}]\n", rounded(f.lower, false),
+                        f.upper ? rounded(*f.upper, true) : "unknown");
+    text += "  it is proven that every robot keeps it within\n";
+    for (const CoordinateValue& v : f.tolerances)
+      text += fmt::format("    {} in [{:.9g}, {:.9g}]\n", v.name, v.value.lo(), v.value.hi());
+    if (!f.robot.empty()) text += "  within the upper bound there is a robot that does not keep it, proven:\n";
+    for (const CoordinateValue& v : f.robot) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+    if (!f.robot.empty()) text += "  its nearest configuration of the set:\n";
+  }
+  for (const CoordinateValue& v : f.nearest) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+  if (!f.reason.empty()) text += fmt::format("  no further: {}\n", f.reason);
+  return text + fmt::format("{} steps, {} boxes processed, {:.3f} s\n", f.steps, f.processed, f.seconds);
+}
+
+std::string to_json(const ToleranceFactor& f) {
+  Json json = {{"model", f.ball.question.model.name()}, {"set", f.ball.set_name()}, {"at", Json::object()}};
+  for (const NamedValue& v : f.ball.center) json["at"][v.name] = v.value.text();
+  json["in"] = f.ball.names();
+  json["keep"] = {{"clearance", f.radius}};
+  json["factor"] = {{"lo", f.lower}, {"hi", or_null(f.upper)}};
+  json["tolerances"] = ends_of(f.tolerances);
+  json["robot"] = ends_of(f.robot);
+  json["nearest"] = f.nearest.empty() ? Json() : ends_of(f.nearest);
+  json["complete"] = f.complete;
+  json["reason"] = or_null(f.reason);
+  json["precision"] = f.precision;
+  json["steps"] = f.steps;
+  json["processed"] = f.processed;
+  json["seconds"] = f.seconds;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace corank::analyze
