@@ -21,6 +21,8 @@ void add_clearance(CLI::App& program, Action& action);
 void add_tolerance(CLI::App& program, Action& action);
 void add_aspects(CLI::App& program, Action& action);
 void add_path(CLI::App& program, Action& action);
+void add_postures(CLI::App& program, Action& action);
+void add_cuspidal(CLI::App& program, Action& action);
 void add_topology(CLI::App& program, Action& action);
 void add_angles(CLI::App& program, Action& action);
 void add_map(CLI::App& program, Action& action);

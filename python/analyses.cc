@@ -9,6 +9,8 @@
 #include "corank/analyze/clearance/tolerance_factor.h"
 #include "corank/analyze/maps/area_by_boundary.h"
 #include "corank/analyze/paths/path.h"
+#include "corank/analyze/postures/cuspidal.h"
+#include "corank/analyze/postures/postures.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/python/bindings.h"
 #include "corank/python/result.h"
@@ -157,6 +159,44 @@ py::tuple tolerance_factor(const Question& question, const analyze::BallOptions&
       });
 }
 
+// Of the quaternion's four numbers as texts, or of a product of turns; none where both are empty.
+py::tuple postures(const Question& question, const Values& at, const std::optional<std::string>& turns,
+                   const std::optional<std::array<std::string, 4>>& quaternion, const std::string& orientation_of,
+                   int threads, double time_limit, const py::object& progress) {
+  std::optional<analyze::Rotation> orientation;
+  if (turns) orientation = analyze::parse_rotation(*turns);
+  if (quaternion) {
+    std::array<ExactNumber, 4> q;
+    for (std::size_t k = 0; k < 4; ++k) q[k] = ExactNumber::rational((*quaternion)[k]);
+    orientation = analyze::rotation_of(q);
+  }
+  analyze::PostureQuestion asked{.question = question, .given = {}, .orientation = orientation.has_value()};
+  asked.orientation_of = orientation_of;
+  std::vector<Expression> values;
+  for (const auto& [name, value] : at) asked.given.push_back(name), values.push_back(value);
+  return said(progress, within(time_limit, [asked, values, orientation, threads](solve::Control& control) {
+                const analyze::PostureFinder finder(asked);
+                const analyze::Postures found = finder.find(values, orientation, control, threads);
+                return std::tuple(to_json(finder, found), to_table(finder, found));
+              }));
+}
+
+py::tuple cuspidal(const Question& question, const std::optional<std::string>& of, int poses, int threads, double time_limit,
+                   const py::object& progress) {
+  analyze::CuspidalOptions options{.poses = poses, .threads = threads, .progress = {}};
+  if (of) {
+    options.of = analyze::avoid_from_string(*of);
+    if (!options.of) throw std::invalid_argument("of: expected \"forward\" or \"inverse\"");
+  }
+  return said(progress, within(time_limit, [question, options](solve::Control& control) {
+                const analyze::Cuspidality found = analyze::cuspidality(question, options, control);
+                std::shared_ptr<result::PathFile> file;
+                if (found.cuspidal) file = std::make_shared<result::PathFile>(to_file(*found.finder, *found.path));
+                const std::string name = question.model.name();
+                return std::tuple(to_json(found, name, ""), to_text(found, name), file);
+              }));
+}
+
 Ranges declared_ranges(const Question& question, const std::vector<std::string>& names) {
   Ranges list;
   for (const analyze::NamedRange& r : analyze::declared_ranges(question, names)) list.emplace_back(r.name, r.lower, r.upper);
@@ -209,6 +249,8 @@ void bind_analyses(py::module_& module) {
   module.def("best_center", &best_center);
   module.def("clearance_map", &clearance_map);
   module.def("tolerance_factor", &tolerance_factor);
+  module.def("postures", &postures);
+  module.def("cuspidal", &cuspidal);
   module.def("declared_ranges", &declared_ranges);
   module.def("area", &area);
   module.def("path", &path);

@@ -29,6 +29,8 @@ struct PathOptions {
   int threads = 1;
   std::uint64_t max_boxes = 400'000;  ///< of one cover
   double sampling_seconds = 20;       ///< of one attempt, where the dimension is high
+  int factors_up_to =
+      3;  ///< factors of the determinants are sought for C-spaces of such a dimension at most: it may take long
 };
 
 struct Path {

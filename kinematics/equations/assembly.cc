@@ -136,6 +136,7 @@ Assembly assemble(const Robot& robot) {
   Assembly assembly = in_positions_or_poses(legs.robot);
   assembly.has_universal_rods =
       std::ranges::any_of(legs.robot.joints, [](const Joint& joint) { return joint.kind == JointKind::universal_rod; });
+  assembly.robot = std::make_shared<const Robot>(robot);
   assembly.links = robot.links.size();
   assembly.conditions.insert(assembly.conditions.end(), legs.conditions.begin(), legs.conditions.end());
   return assembly;

@@ -1,6 +1,7 @@
 // From a robot's parts to its equations.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct Assembly {
     std::optional<Expression> sine;
   };
 
+  std::shared_ptr<const Robot> robot;  ///< of which it was made
   symbolic::Mechanism
       mechanism;  ///< coordinates and equations; velocity equation, inputs and outputs where the robot has such
   Space space = Space::spatial;

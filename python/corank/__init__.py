@@ -12,7 +12,19 @@ reads a ``Result`` from a file.
 
 from . import _corank
 from ._corank import Expression, Relation
-from .analyses import Analysis, Aspects, BestCenter, Bounds, Clearance, ClearanceMap, Cusp, ToleranceFactor, Topology
+from .analyses import (
+    Analysis,
+    Aspects,
+    BestCenter,
+    Bounds,
+    Clearance,
+    ClearanceMap,
+    Cusp,
+    Cuspidality,
+    Postures,
+    ToleranceFactor,
+    Topology,
+)
 from .errors import Interrupted, ModelError, OptionError, ResultFileError
 from .expression import as_expression, as_relation, cos, degrees, linspace, pi, sin, sqrt, tan
 from .mapping import ParameterMap
@@ -43,6 +55,7 @@ __all__ = [
     "ClearanceMap",
     "Coordinate",
     "Cusp",
+    "Cuspidality",
     "Expression",
     "Interrupted",
     "Interval",
@@ -54,6 +67,7 @@ __all__ = [
     "ParameterMap",
     "Path",
     "Point",
+    "Postures",
     "Relation",
     "Report",
     "Result",

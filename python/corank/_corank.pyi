@@ -230,6 +230,19 @@ def aspects(
 def clearance(
     question: Question, ball: Ball, precision: float, claims: bool, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[Result], Optional[Result], Optional[BaseException]]: ...
+def cuspidal(
+    question: Question, of: Optional[str], poses: int, threads: int, time_limit: float, progress: Any
+) -> Tuple[str, str, Optional[PathFile], Optional[BaseException]]: ...
+def postures(
+    question: Question,
+    at: Sequence[Tuple[str, Expression]],
+    turns: Optional[str],
+    quaternion: Optional[Sequence[str]],
+    orientation_of: str,
+    threads: int,
+    time_limit: float,
+    progress: Any,
+) -> Tuple[str, str, Optional[BaseException]]: ...
 def tolerance_factor(
     question: Question, ball: Ball, radius: float, precision: float, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[BaseException]]: ...

@@ -335,6 +335,8 @@ class Mechanism:
 
     clearance = analyses.clearance
     tolerance_factor = analyses.tolerance_factor
+    postures = analyses.postures
+    cuspidal = analyses.cuspidal
     best_center = analyses.best_center
     clearance_map = analyses.clearance_map
     area = analyses.area

@@ -24,6 +24,7 @@ bool is_short(const ExactNumber& q) {
 }
 
 constexpr double kRounding = 1e-12;  // relative, of quotients in doubles
+constexpr double kSmallTerm = 1e-2;
 
 // A rational number with a small denominator that close to x, relatively.
 std::optional<ExactNumber> simple_rational(double x, double tolerance) {
@@ -150,6 +151,13 @@ class Reducer {
   // One step of (c). False: nothing to do.
   bool shorten();
   std::vector<double> sizes() const;
+  /// How large the variable's term in an affine equation is at most.
+  double term(const Polynomial& f, int variable) const {
+    for (const Monomial& m : f.monomials)
+      if (!m.factors.empty() && m.factors[0].variable == variable)
+        return m.enclosure.mag() * rewriting_.system().variables[variable].domain.mag();
+    return 0;
+  }
   ExactNumber exact_factor(const RowSum& sum) const;
   void add(std::size_t row, std::size_t other, const ExactNumber& factor) {
     rewriting_.apply(SumOfEquations{rewriting_.origin(row), rewriting_.origin(other), factor});
@@ -198,10 +206,13 @@ bool Reducer::eliminate_tied() {
     const Polynomial& f = rewriting_.system().equations[i];
     const std::vector<int> variables = certify::variables_of(f);
     if (variables.empty() || variables.size() > 2 || !certify::is_affine(f)) continue;
-    // The later variable goes: kernel unknowns and auxiliaries stand behind the configuration.
-    for (auto v = variables.rbegin(); v != variables.rend(); ++v)
-      if (const auto value = rewriting_.value_of(*v, i); value && affordable(*v, *value)) {
-        eliminate(i, *v);
+    // The later variable goes: kernel unknowns and auxiliaries stand behind the configuration. But not one of a far smaller
+    // term, in whose value the other's rounding would grow.
+    std::vector<int> order(variables.rbegin(), variables.rend());
+    if (order.size() == 2 && term(f, order[0]) < kSmallTerm * term(f, order[1])) std::swap(order[0], order[1]);
+    for (const int v : order)
+      if (const auto value = rewriting_.value_of(v, i); value && affordable(v, *value)) {
+        eliminate(i, v);
         return true;
       }
   }

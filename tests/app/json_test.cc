@@ -38,6 +38,8 @@ std::vector<JsonCommand> commands(const TemporaryFolder& folder) {
        "factor"},
       {{"clearance", "--best", "x_C=[0.4,0.6]", "--precision", "0.5"}, slider, "radius"},
       {{"clearance", "--map", "x_C=[0.4,0.6],y_A=[0.9,1]", "--grid", "2", "-o", folder.file("map.csv")}, slider, "cells"},
+      {{"postures", "--at", "x_C=0.5"}, slider, "postures"},
+      {{"cuspidal", "--poses", "2"}, slider, "cuspidal"},
       {{"topology"}, slider, "components"},
       {{"aspects"}, slider, "aspects"},
       {{"path", "--from", "x_C=0.5", "--from-mode", "1", "--to", "x_C=0.51", "--to-mode", "1"}, slider, "waypoints"},

@@ -71,6 +71,21 @@ def test_tolerances_may_grow_until_a_robot_falls_short(models):
     assert "factor of the tolerances" in str(f)
 
 
+def test_an_arm_of_six_joints_has_all_its_postures_and_changes_them_without_a_singularity(tmp_path):
+    file = tmp_path / "gofa.cuik"
+    rows = ["0 90deg 0.265 q1", "0.444 0 0 q2", "0.11 -90deg 0 q3", "0 90deg 0.47 q4", "0.08 -90deg 0 q5", "0 0 0.101 q6"]
+    file.write_text("[CONSTANTS]\nunit m\n[DH]\nstandard\na alpha d theta\n" + "\n".join(rows) + "\n")
+    m = corank.load(file)
+    at = {"tool_x": "0.4", "tool_y": "0.2", "tool_z": "0.5"}
+    p = m.postures(at, "Rz(0.3)*Ry(pi/9*2)")
+    assert p.at_least == p.at_most == len(p.postures) and p.at_most % 2 == 0 and p.complete and not p.families
+    assert set(p.postures[0]) == {"q1", "q2", "q3", "q4", "q5", "q6"} and "proven to be all" in str(p)
+    turned = m.postures(at, (math.cos(0.15), 0, 0, math.sin(0.15)))
+    assert turned.at_most is not None
+    c = m.cuspidal()
+    assert c and c.of == "inverse" and c.from_["q1"].mid != c.to["q1"].mid and c.verify()
+
+
 def test_the_best_centre_has_more_clearance_than_another(dextar):
     best = dextar.best_center({"J3x": (0.4, 0.8), "J3y": (0.8, 1.2)}, precision=0.1)
     assert set(best.center) == {"J3x", "J3y"} and best.lower > 0

@@ -1,0 +1,272 @@
+#include "corank/analyze/postures/cuspidal.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "corank/analyze/clearance/json.h"
+#include "corank/kinematics/robot/robot.h"
+#include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/model/evaluate.h"
+#include "corank/symbolic/model/model_file.h"
+
+namespace corank::analyze {
+namespace {
+
+using symbolic::Expression;
+
+// The ends of a path are within so much of the postures, in radians or the model's unit; and its tube is so many times
+// wider, so that the postures themselves are in it.
+constexpr double kNear = 1e-9, kWider = 1e3;
+constexpr int kMostJoints = 7;  // of an arm whose determinant is factored
+constexpr int kMostPairs = 6;   // of one pose
+
+bool is_tree(const kinematics::Robot& robot) {
+  return robot.joints.size() + 1 == robot.links.size() && robot.couplings.empty();
+}
+
+const kinematics::Output* turned_output(const kinematics::Robot& robot) {
+  using Kind = kinematics::Output::Kind;
+  const auto found =
+      std::ranges::find_if(robot.outputs, [](const auto& o) { return o.kind == Kind::pose || o.kind == Kind::orientation; });
+  return found == robot.outputs.end() ? nullptr : &*found;
+}
+
+Expression decimal(double x) { return symbolic::parse_expression(fmt::format("{:.17g}", x), "value"); }
+
+class CuspidalSearch {
+ public:
+  CuspidalSearch(const study::Question& question, const CuspidalOptions& options, solve::Control& control)
+      : question_(question), options_(options), control_(control) {
+    const kinematics::Robot* robot = question.assembly ? question.assembly->robot.get() : nullptr;
+    result_.of = options.of.value_or(robot && is_tree(*robot) ? Avoid::inverse : Avoid::forward);
+    if (result_.of != Avoid::inverse && result_.of != Avoid::forward)
+      throw question_error(question, "a robot is cuspidal with regard to one kind of singularities", "forward or inverse");
+    result_.finder =
+        std::make_shared<PathFinder>(question, PathOptions{.avoid = result_.of,
+                                                           .threads = options.threads,
+                                                           .sampling_seconds = options.path_seconds,
+                                                           .factors_up_to = robot && is_tree(*robot) ? kMostJoints : 3});
+    const symbolic::Mechanism& model = question.model;
+    if (result_.of == Avoid::forward) {
+      given_ = model.inputs();
+    } else {
+      if (robot && question.assembly->space != kinematics::Space::planar) hand_ = turned_output(*robot);
+      for (const symbolic::Coordinate& c : model.coordinates())
+        if (is_output(c.name)) given_.push_back(c.name);
+    }
+    PostureQuestion asked{.question = question, .given = given_, .orientation = hand_ != nullptr};
+    postures_.emplace(std::move(asked));
+    for (const std::string& name : inputs()) static_cast<void>(coordinate(name));
+  }
+
+  Cuspidality run() {
+    for (; result_.poses < options_.poses && !control_.ended() && !result_.cuspidal; ++result_.poses) {
+      if (options_.progress) options_.progress(result_.poses, result_.same_sign);
+      try_pose();
+    }
+    if (!result_.cuspidal)
+      result_.reason = control_.ended() ? "stopped by a limit"
+                       : result_.same_sign == 0
+                           ? fmt::format("at {} poses the signs of the determinants tell all postures apart", result_.poses)
+                           : "no path was found between postures that no sign tells apart";
+    return std::move(result_);
+  }
+
+ private:
+  bool is_output(const std::string& name) const {
+    if (std::ranges::count(question_.model.outputs(), name) > 0) return true;
+    if (!question_.assembly) return false;
+    for (const kinematics::Output& o : question_.assembly->robot->outputs)
+      for (const char* axis : {"_x", "_y", "_z"})
+        if (o.name + axis == name) return true;
+    return false;
+  }
+
+  double any_value(const symbolic::Coordinate& c) {
+    double lower = -std::numbers::pi, upper = std::numbers::pi;
+    if (c.has_range) {
+      lower = symbolic::exact_value(question_.model, c.lower, c.name).enclose().mid();
+      upper = symbolic::exact_value(question_.model, c.upper, c.name).enclose().mid();
+    }
+    for (const symbolic::Limit& limit : question_.model.limits()) {
+      if (limit.coordinate != c.name) continue;
+      lower = symbolic::exact_value(question_.model, limit.lower, c.name).enclose().mid();
+      upper = symbolic::exact_value(question_.model, limit.upper, c.name).enclose().mid();
+    }
+    return std::round(1e6 * std::uniform_real_distribution<double>(lower, upper)(random_)) / 1e6;
+  }
+
+  const symbolic::Coordinate& coordinate(const std::string& name) const {
+    const int index = question_.model.find_coordinate(name);
+    if (index < 0) throw unknown_coordinate(question_, name);
+    const symbolic::Coordinate& c = question_.model.coordinates()[index];
+    if (is_fixed(c))
+      throw question_error(question_, "the range of '" + name + "' has one value, so the robot is not free to move",
+                           "the whole robot");
+    return c;
+  }
+
+  // Values of the given coordinates, and an orientation, for which there is a configuration, if it is an arm; else any.
+  bool choose_pose(std::vector<Expression>& values, std::optional<Rotation>& orientation) {
+    result_.given.clear();
+    if (result_.of == Avoid::forward) {
+      for (const std::string& name : given_) take(name, any_value(coordinate(name)), values);
+      return true;
+    }
+    std::vector<NamedValue> joints;
+    for (const std::string& name : inputs()) joints.push_back({name, decimal(any_value(coordinate(name)))});
+    const std::vector<Box> boxes = result_.finder->ends(joints, control_);
+    if (boxes.empty()) return false;
+    const Box& box = boxes.front();
+    const System& system = result_.finder->system();
+    std::map<std::string, double> at;
+    for (int j = 0; j < system.configuration_size; ++j) at[system.variables[j].name] = box[j].mid();
+    for (const CoordinateValue& v : coordinate_values(system, box)) at[v.name] = v.value.mid();
+    for (const std::string& name : given_) take(name, at.at(name), values);
+    if (!hand_) return true;
+    for (const symbolic::Constant& c : question_.model.constants()) at[c.name] = symbolic::evaluate(c.value, at);
+    const std::string& link = question_.assembly->robot->links[hand_->link].name;
+    const auto pose = std::ranges::find(question_.assembly->poses, link, &kinematics::Assembly::LinkPose::link);
+    Eigen::Matrix3d r;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        r(i, j) = symbolic::evaluate(pose->rotation[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)], at);
+    const Eigen::Quaterniond q(r);
+    result_.quaternion = {q.w(), q.x(), q.y(), q.z()};
+    std::array<ExactNumber, 4> exact;
+    for (std::size_t k = 0; k < 4; ++k) exact[k] = ExactNumber::dyadic((*result_.quaternion)[k]);
+    orientation = rotation_of(exact);
+    return true;
+  }
+
+  void take(const std::string& name, double value, std::vector<Expression>& values) {
+    values.push_back(symbolic::parse_expression(ExactNumber::dyadic(value).text(), name));
+    result_.given.push_back({name, Interval(value)});
+  }
+
+  // Coordinates of the model.
+  std::vector<std::string> inputs() const {
+    std::vector<std::string> names = question_.model.inputs();
+    if (names.empty() && question_.assembly)
+      for (const kinematics::Joint& j : question_.assembly->robot->joints)
+        if (j.actuated && question_.model.find_coordinate(j.name) >= 0) names.push_back(j.name);
+    return names;
+  }
+
+  void try_pose() {
+    std::vector<Expression> values;
+    std::optional<Rotation> orientation;
+    if (!choose_pose(values, orientation)) return;
+    const Postures found = postures_->find(values, orientation, control_);
+    result_.most = std::max(result_.most, found.found.size());
+    // Where each is in the space of paths, and the signs there.
+    std::vector<std::optional<Box>> ends;
+    std::vector<std::vector<int>> signs;
+    for (const Posture& posture : found.found) {
+      ends.push_back(posture.proven ? end_at(posture, values) : std::nullopt);
+      signs.emplace_back();
+      if (ends.back())
+        for (const PathFinder::Sign& s : result_.finder->signs(*ends.back())) signs.back().push_back(s.sign);
+    }
+    int tried = 0;
+    for (std::size_t a = 0; a < ends.size(); ++a)
+      for (std::size_t b = a + 1; b < ends.size() && !control_.ended(); ++b) {
+        if (!ends[a] || !ends[b] || signs[a] != signs[b] || std::ranges::count(signs[a], 0) > 0) continue;
+        ++result_.same_sign;
+        if (tried++ >= kMostPairs) return;
+        Path path = result_.finder->find(*ends[a], *ends[b], control_);
+        if (path.status != Path::Status::path || !path.tube || path.tube->radius() < kWider * kNear) continue;
+        result_.cuspidal = true;
+        result_.from = found.found[a].values;
+        result_.to = found.found[b].values;
+        result_.path = std::move(path);
+        return;
+      }
+  }
+
+  // The configuration at which the posture's coordinates have the middles of its values.
+  std::optional<Box> end_at(const Posture& posture, const std::vector<Expression>& values) {
+    std::vector<NamedValue> at;
+    const auto add = [&](const CoordinateValue& v) {
+      if (v.value.width() < kNear) at.push_back({v.name, decimal(v.value.mid())});
+    };
+    const std::vector<std::string> own = result_.of == Avoid::inverse ? inputs() : question_.model.outputs();
+    for (const CoordinateValue& v : posture.values)
+      if (std::ranges::count(own, v.name) > 0) add(v);
+    if (result_.of == Avoid::forward)
+      for (std::size_t k = 0; k < given_.size(); ++k) at.push_back({given_[k], values[k]});
+    for (const CoordinateValue& v : posture.values)
+      if (std::ranges::count(own, v.name) == 0) add(v);
+    try {
+      std::vector<Box> boxes = result_.finder->ends(at, control_);
+      if (boxes.size() == 1) return std::move(boxes.front());
+    } catch (const EndError&) {
+    }
+    return std::nullopt;
+  }
+
+  const study::Question& question_;
+  const CuspidalOptions& options_;
+  solve::Control& control_;
+  Cuspidality result_;
+  const kinematics::Output* hand_ = nullptr;
+  std::vector<std::string> given_;
+  std::optional<PostureFinder> postures_;
+  std::mt19937 random_{2022};
+};
+
+std::string values_text(const std::vector<CoordinateValue>& values) {
+  std::string text;
+  for (const CoordinateValue& v : values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+  return text;
+}
+
+}  // namespace
+
+Cuspidality cuspidality(const study::Question& question, const CuspidalOptions& options, solve::Control& control) {
+  const auto start = std::chrono::steady_clock::now();
+  study::require_exact_constants(question.model, "corank cuspidal");
+  Cuspidality result = CuspidalSearch(question, options, control).run();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+std::string to_text(const Cuspidality& c, const std::string& model) {
+  std::string text = fmt::format("{}: ", model);
+  if (!c.cuspidal) {
+    text += fmt::format("open whether it is cuspidal: {}\n", c.reason);
+    return text + fmt::format("{} poses tried, at most {} postures, {:.1f} s\n", c.poses, c.most, c.seconds);
+  }
+  text += fmt::format("cuspidal, proven: two postures joined without {}\n  at\n", in_words(c.of)) + values_text(c.given);
+  if (const auto& q = c.quaternion)
+    text +=
+        fmt::format("    orientation, a quaternion: {:.9g}, {:.9g}, {:.9g}, {:.9g}\n", (*q)[0], (*q)[1], (*q)[2], (*q)[3]);
+  text += "  from\n" + values_text(c.from) + "  to\n" + values_text(c.to);
+  return text + fmt::format("  path of {} pieces, radius {:.3g}\n{} poses tried, {:.1f} s\n", c.path->tube->pieces.size(),
+                            c.path->tube->radius(), c.poses, c.seconds);
+}
+
+std::string to_json(const Cuspidality& c, const std::string& model, const std::string& file) {
+  Json json = {{"model", model}, {"cuspidal", or_null(c.cuspidal)}, {"of", to_string(c.of)}, {"given", Json::object()}};
+  if (c.cuspidal)
+    for (const CoordinateValue& v : c.given) json["given"][v.name] = v.value.mid();
+  json["quaternion"] = c.cuspidal && c.quaternion ? Json(*c.quaternion) : Json();
+  json["from"] = c.cuspidal ? ends_of(c.from) : Json();
+  json["to"] = c.cuspidal ? ends_of(c.to) : Json();
+  json["radius"] = c.path ? Json(c.path->tube->radius()) : Json();
+  json["certificate"] = c.cuspidal ? or_null(file) : Json();
+  json["poses"] = c.poses;
+  json["most_postures"] = c.most;
+  json["same_sign"] = c.same_sign;
+  json["reason"] = or_null(c.reason);
+  json["seconds"] = c.seconds;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace corank::analyze

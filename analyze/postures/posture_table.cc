@@ -1,0 +1,262 @@
+#include "corank/analyze/postures/posture_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <sstream>
+
+#include "corank/analyze/clearance/json.h"
+#include "corank/core/check.h"
+#include "corank/core/threads.h"
+#include "corank/symbolic/model/model_file.h"
+
+namespace corank::analyze {
+namespace {
+
+using symbolic::Expression;
+using symbolic::ModelError;
+
+constexpr std::size_t kShown = 5;  // differences in a table
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
+    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  return cells;
+}
+
+double number_of(const std::string& text, const symbolic::SourceLocation& where) {
+  std::size_t end = 0;
+  double value = NAN;
+  try {
+    value = std::stod(text, &end);
+  } catch (const std::logic_error&) {
+    end = 0;
+  }
+  if (end == 0 || end != text.size() || !std::isfinite(value))
+    throw ModelError(where, "'" + text + "' is no number", "a number");
+  return value;
+}
+
+bool same(double a, double b, bool is_angle, double tolerance) {
+  double d = a - b;
+  if (is_angle) d = std::remainder(d, 2 * std::numbers::pi);
+  return std::fabs(d) <= tolerance;
+}
+
+Json differences(const PostureFinder& finder, const std::vector<Comparison::Difference>& list) {
+  Json json = Json::array();
+  const std::vector<std::string> names = finder.names();
+  for (const Comparison::Difference& d : list) {
+    Json values = Json::object();
+    for (std::size_t k = 0; k < names.size(); ++k) values[names[k]] = d.values[k];
+    json.push_back({{"pose", d.pose + 1}, {"values", values}});
+  }
+  return json;
+}
+
+std::string lines_of(const char* what, const PostureFinder& finder, const std::vector<Comparison::Difference>& list) {
+  std::string text = fmt::format("  {:<9}{}\n", what, list.size());
+  const std::vector<std::string> names = finder.names();
+  for (std::size_t k = 0; k < std::min(list.size(), kShown); ++k) {
+    text += fmt::format("    pose {}:", list[k].pose + 1);
+    for (std::size_t j = 0; j < names.size(); ++j) text += fmt::format(" {} = {:.9g}", names[j], list[k].values[j]);
+    text += "\n";
+  }
+  if (list.size() > kShown) text += fmt::format("    … and {} more\n", list.size() - kShown);
+  return text;
+}
+
+}  // namespace
+
+int Table::column(const std::string& name) const {
+  const auto found = std::ranges::find(names, name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+Table parse_table(const std::string& text, const std::string& file) {
+  Table table;
+  std::istringstream stream(text);
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    line = line.substr(0, line.find_first_of("%#"));
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    std::vector<std::string> cells = cells_of(line);
+    if (table.names.empty()) {
+      table.names = std::move(cells);
+      continue;
+    }
+    if (cells.size() != table.names.size())
+      throw ModelError({file, number, 1}, fmt::format("{} values under {} names", cells.size(), table.names.size()),
+                       "as many values as names, separated by commas");
+    table.rows.push_back(std::move(cells));
+    table.lines.push_back(number);
+  }
+  if (table.names.empty()) throw ModelError({file, 1, 1}, "the table is empty", "a line of names, and lines of values");
+  return table;
+}
+
+PostureQuestion question_of(const Table& poses, const study::Question& question, const std::string& orientation_of) {
+  PostureQuestion asked{.question = question, .given = {}, .orientation_of = orientation_of};
+  for (const std::string& name : poses.names)
+    if (std::ranges::find(kQuaternion, name) == kQuaternion.end()) asked.given.push_back(name);
+  asked.orientation = asked.given.size() < poses.names.size();
+  return asked;
+}
+
+std::vector<PoseRow> rows_of(const Table& poses, const std::string& file) {
+  std::array<int, 4> columns{};
+  for (std::size_t k = 0; k < 4; ++k) columns[k] = poses.column(kQuaternion[k]);
+  const bool turned = std::ranges::any_of(columns, [](int c) { return c >= 0; });
+  if (turned && std::ranges::any_of(columns, [](int c) { return c < 0; }))
+    throw ModelError({file, 1, 1}, "the quaternion is not complete", "the columns qw, qx, qy and qz");
+  std::vector<PoseRow> rows;
+  for (std::size_t i = 0; i < poses.rows.size(); ++i) {
+    const symbolic::SourceLocation where{file, poses.lines[i], 1};
+    PoseRow& row = rows.emplace_back();
+    for (std::size_t j = 0; j < poses.names.size(); ++j)
+      if (std::ranges::find(kQuaternion, poses.names[j]) == kQuaternion.end())
+        row.values.push_back(symbolic::parse_expression(poses.rows[i][j], file + ":" + std::to_string(poses.lines[i])));
+    if (!turned) continue;
+    try {
+      std::array<ExactNumber, 4> q;
+      for (std::size_t k = 0; k < 4; ++k) q[k] = ExactNumber::rational(poses.rows[i][columns[k]]);
+      row.orientation = rotation_of(q);
+    } catch (const std::invalid_argument& error) {
+      throw ModelError(where, std::string("the quaternion: ") + error.what(), "four numbers, not all 0");
+    }
+  }
+  return rows;
+}
+
+std::vector<Postures> find_all(const PostureFinder& finder, const std::vector<PoseRow>& rows, int threads,
+                               solve::Control& control,
+                               const std::function<void(std::size_t done, std::size_t all)>& progress) {
+  std::vector<Postures> all(rows.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  ThreadArena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        std::size_t{0}, rows.size(), std::size_t{1},
+        [&](std::size_t i) {
+          if (control.ended()) return;
+          solve::Control own(control.rest(0, 0));
+          all[i] = finder.find(rows[i].values, rows[i].orientation, own);
+          const std::lock_guard lock(mutex);
+          if (progress) progress(++done, rows.size());
+        },
+        tbb::simple_partitioner());
+  });
+  return all;
+}
+
+Comparison compare(const PostureFinder& finder, const std::vector<Postures>& proven, const Table& others,
+                   const std::string& file, double tolerance) {
+  const std::vector<std::string> names = finder.names();
+  const int pose = others.column("pose");
+  std::vector<int> columns;
+  for (const std::string& name : names) columns.push_back(others.column(name));
+  if (pose < 0 || std::ranges::any_of(columns, [](int c) { return c < 0; }))
+    throw ModelError({file, 1, 1}, "a column is missing", fmt::format("pose, {}", fmt::join(names, ", ")));
+  std::vector<bool> angles;
+  for (const std::string& name : names) angles.push_back(finder.is_angle(name));
+  Comparison result;
+  std::vector<std::vector<bool>> seen;
+  for (const Postures& p : proven) seen.emplace_back(p.found.size(), false);
+  for (std::size_t i = 0; i < others.rows.size(); ++i) {
+    const symbolic::SourceLocation where{file, others.lines[i], 1};
+    const double number = number_of(others.rows[i][pose], where);
+    if (!(number >= 1 && number <= static_cast<double>(proven.size())) || number != std::floor(number))
+      throw ModelError(where, "there is no pose " + others.rows[i][pose], fmt::format("one of 1 to {}", proven.size()));
+    Comparison::Difference other{static_cast<std::size_t>(number) - 1, {}};
+    for (const int c : columns) other.values.push_back(number_of(others.rows[i][c], where));
+    const Postures& at = proven[other.pose];
+    bool agreed = false;
+    for (std::size_t k = 0; k < at.found.size(); ++k) {
+      bool equal = true;
+      for (std::size_t j = 0; j < names.size() && equal; ++j)
+        equal = same(other.values[j], at.found[k].values[j].value.mid(), angles[j], tolerance);
+      if (equal) seen[other.pose][k] = agreed = true;
+    }
+    if (agreed)
+      ++result.agreed;
+    else
+      (at.at_most() ? result.wrong : result.open).push_back(std::move(other));
+  }
+  for (std::size_t p = 0; p < proven.size(); ++p)
+    for (std::size_t k = 0; k < proven[p].found.size(); ++k) {
+      if (seen[p][k] || !proven[p].found[k].proven) continue;
+      Comparison::Difference& lost = result.missing.emplace_back(Comparison::Difference{p, {}});
+      for (const CoordinateValue& v : proven[p].found[k].values) lost.values.push_back(v.value.mid());
+    }
+  return result;
+}
+
+std::string to_csv(const PostureFinder& finder, const std::vector<Postures>& postures) {
+  std::string text = fmt::format("pose,at_least,at_most,posture,{}\n", fmt::join(finder.names(), ","));
+  for (std::size_t p = 0; p < postures.size(); ++p) {
+    const auto most = postures[p].at_most();
+    const std::string start = fmt::format("{},{},{},", p + 1, postures[p].at_least(), most ? std::to_string(*most) : "");
+    if (postures[p].found.empty()) text += start + std::string(finder.names().size(), ',') + "\n";
+    for (std::size_t k = 0; k < postures[p].found.size(); ++k) {
+      text += start + std::to_string(k + 1);
+      for (const CoordinateValue& v : postures[p].found[k].values) text += fmt::format(",{:.17g}", v.value.mid());
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+std::string to_json(const PostureFinder& finder, const std::vector<Postures>& postures, const Comparison* comparison) {
+  Json json = {{"model", finder.question().question.model.name()}, {"given", finder.question().given}};
+  json["poses"] = Json::array();
+  for (const Postures& p : postures) {
+    Json one = Json::parse(to_json(finder, p));
+    one.erase("model");
+    one.erase("given");
+    json["poses"].push_back(std::move(one));
+  }
+  if (comparison)
+    json["against"] = {{"agreed", comparison->agreed},
+                       {"missing", differences(finder, comparison->missing)},
+                       {"wrong", differences(finder, comparison->wrong)},
+                       {"open", differences(finder, comparison->open)}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string to_table(const PostureFinder& finder, const std::vector<Postures>& postures, const Comparison* comparison) {
+  std::string text = fmt::format("{}: {} poses\n", finder.question().question.model.name(), postures.size());
+  std::map<int, std::size_t> exactly;
+  std::size_t open = 0;
+  for (const Postures& p : postures) {
+    const auto most = p.at_most();
+    if (most && *most == p.at_least())
+      ++exactly[*most];
+    else
+      ++open;
+  }
+  for (const auto& [count, poses] : exactly)
+    text += fmt::format("  {:>2} posture{:<2} {} pose{}, proven to be all\n", count, count == 1 ? "" : "s", poses,
+                        poses == 1 ? "" : "s");
+  if (open > 0)
+    text += fmt::format("  not known    {} pose{}: bounds only, or sets of postures\n", open, open == 1 ? "" : "s");
+  if (!comparison) return text;
+  text += "compared with the others:\n";
+  text += fmt::format("  {:<9}{}\n", "agreed", comparison->agreed);
+  text += lines_of("missing", finder, comparison->missing);
+  text += lines_of("wrong", finder, comparison->wrong);
+  return text + lines_of("open", finder, comparison->open);
+}
+
+}  // namespace corank::analyze

@@ -1,0 +1,77 @@
+// corank cuspidal: does a robot change its posture without a singularity?
+#include "corank/analyze/postures/cuspidal.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "corank/app/box_files.h"
+#include "corank/app/exit_status.h"
+#include "corank/app/limited_run.h"
+#include "corank/app/progress.h"
+#include "corank/app/question.h"
+#include "corank/app/shared_options.h"
+#include "corank/app/subcommands.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/claim_files.h"
+#include "corank/result/values/words.h"
+
+namespace corank::app {
+namespace {
+
+struct CuspidalCommand {
+  QuestionOptions question;
+  std::string of, output;
+  analyze::CuspidalOptions options{.threads = 0, .progress = {}};
+  double time_limit = 0;
+  JsonOption json;
+};
+
+ExitStatus find_out(CuspidalCommand command) {
+  command.json.give_back(command.question.file);
+  command.json.check();
+  if (!command.output.empty()) check_output(command.output);
+  if (!command.of.empty()) command.options.of = analyze::avoid_from_string(command.of);
+  LimitedRun run({.time = command.time_limit});
+  const study::Question question = load(command.question);
+  ProgressLine line;
+  command.options.progress = [&line](int poses, std::size_t pairs) {
+    line.show(fmt::format("{} poses, {} pairs of postures that no sign tells apart", poses, pairs));
+  };
+  const analyze::Cuspidality found = analyze::cuspidality(question, command.options, run.control());
+  line.clear();
+  if (found.cuspidal && !command.output.empty())
+    result::write_path(command.output, analyze::to_file(*found.finder, *found.path));
+  if (command.json.say([&] { return to_json(found, question.model.name(), command.output); }))
+    fmt::print("{}", result::printable(to_text(found, question.model.name())));
+  return run.control().ended() ? stopped_early(run.control()) : kDone;
+}
+
+}  // namespace
+
+void add_cuspidal(CLI::App& program, Action& action) {
+  CLI::App* sub = program.add_subcommand(
+      "cuspidal", "Find out whether a robot can change its posture, at the same pose, without meeting a singularity");
+  const auto command = std::make_shared<CuspidalCommand>();
+  command->question.add_model(*sub);
+  command->question.add_definitions(*sub);
+  sub->add_option("--of", command->of,
+                  "Which singularities are not to be met. inverse: postures of one pose are joined (default for arms);\n"
+                  "forward: poses for the same values of the motors (default for robots with loops)")
+      ->check(CLI::IsMember({"forward", "inverse"}));
+  sub->add_option("--poses", command->options.poses, "How many poses are tried")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  sub->add_option("-o,--output", command->output, "Write the path, with its proof, for corank verify (.h5)")
+      ->type_name("FILE");
+  add_analysis_limits(*sub, command->options.threads, command->time_limit);
+  command->json.add(*sub);
+  sub->footer(
+      "The proof that a robot is cuspidal is two postures of one pose, and a path between them about which there is no\n"
+      "singularity. That a robot is not cuspidal is not proven: the answer is then 'open'.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Example:\n  corank cuspidal models/serial/orthogonal_3r.cuik -o path.h5\n  corank verify path.h5");
+  sub->callback([command, &action] { action = [command] { return find_out(*command); }; });
+}
+
+}  // namespace corank::app

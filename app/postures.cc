@@ -1,0 +1,140 @@
+// corank postures: all configurations in which some coordinates have given values.
+#include "corank/analyze/postures/postures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "corank/analyze/postures/posture_table.h"
+#include "corank/app/exit_status.h"
+#include "corank/app/limited_run.h"
+#include "corank/app/progress.h"
+#include "corank/app/question.h"
+#include "corank/app/shared_options.h"
+#include "corank/app/subcommands.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/words.h"
+#include "corank/symbolic/model/model_file.h"
+
+namespace corank::app {
+namespace {
+
+struct PosturesCommand {
+  QuestionOptions question;
+  std::vector<std::string> at;
+  std::string orientation, orientation_of;
+  std::string table, output, against;
+  double within = 1e-6;
+  int threads = 0;
+  double time_limit = 0;
+  JsonOption json;
+};
+
+// --table: of each of its poses.
+ExitStatus find_postures_of_table(const PosturesCommand& command) {
+  if (!command.output.empty() && !command.output.ends_with(".csv"))
+    throw UsageError(fmt::format("-o {}: expected a file name that ends in .csv", command.output));
+  command.json.check();
+  if (!command.output.empty()) result::check_writable(command.output);
+  LimitedRun run({.time = command.time_limit});
+  const analyze::Table poses = analyze::parse_table(symbolic::read_text(command.table), command.table);
+  std::optional<analyze::Table> others;
+  if (!command.against.empty()) others = analyze::parse_table(symbolic::read_text(command.against), command.against);
+  const analyze::PostureFinder finder(analyze::question_of(poses, load(command.question), command.orientation_of));
+  ProgressLine line;
+  const std::vector<analyze::Postures> found =
+      analyze::find_all(finder, analyze::rows_of(poses, command.table), command.threads, run.control(),
+                        [&line](std::size_t done, std::size_t all) { line.show(fmt::format("{} of {} poses", done, all)); });
+  line.clear();
+  std::optional<analyze::Comparison> comparison;
+  if (others) comparison = analyze::compare(finder, found, *others, command.against, command.within);
+  const analyze::Comparison* const compared = comparison ? &*comparison : nullptr;
+  if (!command.output.empty()) result::write_text(command.output, to_csv(finder, found));
+  if (command.json.say([&] { return to_json(finder, found, compared); }))
+    fmt::print("{}", result::printable(to_table(finder, found, compared)));
+  const bool complete = std::ranges::all_of(found, [](const analyze::Postures& p) { return p.complete; });
+  return complete ? kDone : stopped_early(run.control());
+}
+
+ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
+  command.json.give_back(command.question.file);
+  if (!command.table.empty()) {
+    refuse_without_effect(sub, {"--at", "--orientation"}, "no --table beside it");
+    return find_postures_of_table(command);
+  }
+  refuse_without_effect(sub, {"--output", "--against", "--within"}, "--table beside it");
+  if (command.at.empty() && command.orientation.empty())
+    throw UsageError("--at is required; corank postures --help tells more");
+  if (command.orientation.empty() && !command.orientation_of.empty())
+    throw UsageError("--orientation-of: without effect; expected --orientation beside it");
+  command.json.check();
+  LimitedRun run({.time = command.time_limit});
+  std::vector<symbolic::Expression> values;
+  analyze::PostureQuestion question{.question = load(command.question), .given = {}};
+  for (analyze::NamedValue& v : named_values(command.at, "--at")) {
+    question.given.push_back(v.name);
+    values.push_back(std::move(v.value));
+  }
+  std::optional<analyze::Rotation> orientation;
+  if (!command.orientation.empty()) orientation = analyze::parse_rotation(command.orientation);
+  question.orientation = orientation.has_value();
+  question.orientation_of = command.orientation_of;
+  ProgressLine line;
+  line.follow(run.control());
+  const analyze::PostureFinder finder(std::move(question));
+  const analyze::Postures found = finder.find(values, orientation, run.control(), command.threads);
+  line.clear();
+  if (command.json.say([&] { return to_json(finder, found); })) fmt::print("{}", result::printable(to_table(finder, found)));
+  return found.complete ? kDone : stopped_early(run.control());
+}
+
+}  // namespace
+
+void add_postures(CLI::App& program, Action& action) {
+  CLI::App* sub = program.add_subcommand(
+      "postures", "Find all configurations in which some coordinates have given values, such as those of an arm at a pose");
+  const auto command = std::make_shared<PosturesCommand>();
+  command->question.add_model(*sub);
+  command->question.add_definitions(*sub);
+  sub->add_option("--at", command->at,
+                  "The values: of a pose's position, or of motors; a VALUE may use the model's constants, and 15deg is an\n"
+                  "angle in degrees")
+      ->type_name("NAME=VALUE,...")
+      ->allow_extra_args(false);
+  sub->add_option("--orientation", command->orientation,
+                  "The orientation of a link that is an output, such as Rz(0.2)*Ry(10deg)*Rx(0.3)")
+      ->type_name("R");
+  sub->add_option("--orientation-of", command->orientation_of, "The link that --orientation is for, if there are several")
+      ->type_name("NAME");
+  sub->add_option("--table", command->table,
+                  "Find the postures for each line of this file: numbers, separated by commas, under a line with the names\n"
+                  "of coordinates, and qw, qx, qy, qz for an orientation as a quaternion")
+      ->type_name("FILE.csv")
+      ->check(CLI::ExistingFile);
+  sub->add_option("-o,--output", command->output, "Write the postures of the table's poses to this file (.csv)")
+      ->type_name("FILE");
+  sub->add_option(
+         "--against", command->against,
+         "Compare somebody else's solutions with those that are proven: a table with the column pose, the number of\n"
+         "the pose from 1, and one for each joint (in radians)")
+      ->type_name("FILE.csv")
+      ->check(CLI::ExistingFile);
+  sub->add_option("--within", command->within, "How far apart two solutions may be in each joint to count as the same")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  add_analysis_limits(*sub, command->threads, command->time_limit);
+  command->json.add(*sub);
+  sub->footer(
+      "Each posture that is listed is proven to exist. Where it says so, it is proven that there are no others within the\n"
+      "ranges of the model.\n\n"
+      "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
+      "Examples: the postures of an arm at a pose, and the poses of a five-bar robot for two angles of its motors\n"
+      "  corank postures models/serial/puma_560.cuik --at hand_x=0.4,hand_y=0.3,hand_z=0.2\\\n"
+      "      --orientation \"Rz(0.3)*Ry(40deg)\"\n"
+      "  corank postures models/dextar.cuik --at theta2=60deg,theta5=2\n"
+      "  corank postures arm.cuik --table poses.csv -o postures.csv --against mine.csv");
+  sub->callback([command, sub, &action] { action = [command, sub] { return find_postures(*sub, *command); }; });
+}
+
+}  // namespace corank::app

@@ -1,0 +1,332 @@
+// All postures of arms from data sheets, against forward kinematics and Newton's method of their own; counts that are known;
+// poses with infinitely many postures; tables.
+#include "corank/analyze/postures/postures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <random>
+
+#include "corank/analyze/postures/posture_table.h"
+#include "corank/study/model.h"
+#include "corank/tests/seeds.h"
+
+namespace corank::analyze {
+namespace {
+
+using Eigen::Matrix4d;
+using Eigen::Vector3d;
+using Joints = Eigen::Matrix<double, 6, 1>;
+using ::testing::HasSubstr;
+
+struct Row {
+  double a, alpha, d;  // degrees
+};
+struct Arm {
+  const char* name;
+  std::array<Row, 6> rows;
+  int most;  // postures
+};
+
+// Data sheets: UR5 (Universal Robots), PUMA 560 (Corke 1994), CRX-10iA/L and GoFa 5 as in the literature on cuspidal robots.
+const std::vector<Arm>& arms() {
+  static const std::vector<Arm> list{
+      {"ur5",
+       {{{0, 90, 0.089159}, {-0.425, 0, 0}, {-0.39225, 0, 0}, {0, 90, 0.10915}, {0, -90, 0.09465}, {0, 0, 0.0823}}},
+       8},
+      {"puma", {{{0, 90, 0}, {0.4318, 0, 0}, {0.0203, -90, 0.15005}, {0, 90, 0.4318}, {0, -90, 0}, {0, 0, 0}}}, 8},
+      {"crx", {{{0, -90, 0}, {0.71, 0, 0}, {0, -90, 0}, {0, 90, 0.54}, {0, -90, 0.15}, {0, 0, 0.16}}}, 16},
+      {"gofa", {{{0, 90, 0.265}, {0.444, 0, 0}, {0.11, -90, 0}, {0, 90, 0.47}, {0.08, -90, 0}, {0, 0, 0.101}}}, 16},
+  };
+  return list;
+}
+
+study::Question arm_question(const Arm& arm, const std::string& after_each = "") {
+  std::string text = "[CONSTANTS]\nunit m\n[DH]\nstandard\na alpha d theta\n";
+  for (std::size_t k = 0; k < 6; ++k)
+    text += std::to_string(arm.rows[k].a) + " " + std::to_string(static_cast<int>(arm.rows[k].alpha)) + "deg " +
+            std::to_string(arm.rows[k].d) + " q" + std::to_string(k + 1) + " " + after_each + "\n";
+  study::Model model = study::parse_model({text, std::string(arm.name) + ".cuik"});
+  return {.model = std::move(model.mechanism), .assembly = std::move(model.assembly)};
+}
+
+Matrix4d hand(const Arm& arm, const Joints& q) {
+  Matrix4d t = Matrix4d::Identity();
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto& [a, alpha, d] = arm.rows[k];
+    Eigen::Affine3d step = Eigen::Affine3d::Identity();
+    step.rotate(Eigen::AngleAxisd(q[static_cast<int>(k)], Vector3d::UnitZ()));
+    step.translate(Vector3d(0, 0, d));
+    step.translate(Vector3d(a, 0, 0));
+    step.rotate(Eigen::AngleAxisd(alpha * M_PI / 180, Vector3d::UnitX()));
+    t = t * step.matrix();
+  }
+  return t;
+}
+
+double difference(const Matrix4d& a, const Matrix4d& b) { return (a - b).cwiseAbs().maxCoeff(); }
+double distance(const Joints& a, const Joints& b) {
+  double most = 0;
+  for (int k = 0; k < 6; ++k) most = std::max(most, std::fabs(std::remainder(a[k] - b[k], 2 * M_PI)));
+  return most;
+}
+
+struct Pose {
+  std::vector<symbolic::Expression> position;
+  Rotation orientation;
+};
+symbolic::Expression exact(double x) { return symbolic::Expression(ExactNumber::dyadic(x).text()); }
+Pose pose_of(const Matrix4d& t) {
+  const Eigen::Quaterniond q(Eigen::Matrix3d(t.topLeftCorner<3, 3>()));
+  return {{exact(t(0, 3)), exact(t(1, 3)), exact(t(2, 3))},
+          rotation_of({ExactNumber::dyadic(q.w()), ExactNumber::dyadic(q.x()), ExactNumber::dyadic(q.y()),
+                       ExactNumber::dyadic(q.z())})};
+}
+
+PostureFinder finder_of(const study::Question& question) {
+  return PostureFinder({.question = question, .given = {"tool_x", "tool_y", "tool_z"}, .orientation = true});
+}
+Joints joints_of(const Posture& posture) {
+  Joints q;
+  for (int k = 0; k < 6; ++k) q[k] = posture.values.at(static_cast<std::size_t>(k)).value.mid();
+  return q;
+}
+
+// Newton's method with numeric derivatives; nothing where it does not end in a posture.
+std::optional<Joints> newton(const Arm& arm, const Matrix4d& goal, Joints q) {
+  const auto residual = [&](const Joints& at) {
+    const Matrix4d t = hand(arm, at);
+    Joints r;
+    r.head<3>() = t.topRightCorner<3, 1>() - goal.topRightCorner<3, 1>();
+    const Eigen::Matrix3d turn = goal.topLeftCorner<3, 3>().transpose() * t.topLeftCorner<3, 3>();
+    r.tail<3>() = Vector3d(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1)) / 2;
+    return r;
+  };
+  for (int step = 0; step < 30; ++step) {
+    const Joints r = residual(q);
+    if (r.cwiseAbs().maxCoeff() < 1e-13) break;
+    Eigen::Matrix<double, 6, 6> j;
+    for (int k = 0; k < 6; ++k) {
+      Joints next = q;
+      next[k] += 1e-7;
+      j.col(k) = (residual(next) - r) / 1e-7;
+    }
+    q -= j.fullPivLu().solve(r);
+    if (!(q.cwiseAbs().maxCoeff() < 1e3)) return std::nullopt;
+  }
+  return difference(hand(arm, q), goal) < 1e-11 ? std::optional(q) : std::nullopt;
+}
+
+TEST(Postures, OfArmsFromDataSheetsAreAllFound) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> angle(-M_PI, M_PI);
+  const auto any = [&] { return Joints(Joints::NullaryExpr([&] { return angle(random); })); };
+  for (const Arm& arm : arms()) {
+    SCOPED_TRACE(arm.name);
+    const PostureFinder finder = finder_of(arm_question(arm));
+    EXPECT_EQ(finder.way(), "six joints");
+    std::size_t most = 0, unknown = 0;
+    const unsigned poses = test::seeds(12);
+    for (unsigned n = 0; n < poses; ++n) {
+      const Joints made_by = any();
+      const Matrix4d goal = hand(arm, made_by);
+      const Pose pose = pose_of(goal);
+      solve::Control control;
+      const Postures found = finder.find(pose.position, pose.orientation, control);
+      if (found.at_most() != found.at_least()) {
+        ++unknown;
+        continue;
+      }
+      most = std::max(most, found.found.size());
+      EXPECT_EQ(found.found.size() % 2, 0u);
+      EXPECT_LE(found.found.size(), static_cast<std::size_t>(arm.most));
+      double nearest = 10;
+      for (const Posture& posture : found.found) {
+        EXPECT_LT(difference(hand(arm, joints_of(posture)), goal), 1e-8);
+        for (const CoordinateValue& v : posture.values) EXPECT_LT(v.value.width(), 1e-6);
+        nearest = std::min(nearest, distance(joints_of(posture), made_by));
+      }
+      EXPECT_LT(nearest, 1e-6) << "the posture that made the pose is one of them";
+      for (int start = 0; start < (test::long_run() ? 100 : 8); ++start) {
+        const auto other = newton(arm, goal, any());
+        if (!other) continue;
+        const bool known = std::ranges::any_of(
+            found.found, [&](const Posture& posture) { return distance(joints_of(posture), *other) < 1e-5; });
+        EXPECT_TRUE(known) << "Newton's method finds one more";
+      }
+    }
+    EXPECT_LE(unknown, poses / 12);
+    EXPECT_GE(most, 8u);
+    EXPECT_TRUE(std::string(arm.name) != "puma" || most == 8u);
+  }
+}
+
+TEST(Postures, OfAWristThatIsSingularAreAFamilyAndSixMore) {
+  const PostureFinder finder = finder_of(arm_question(arms()[1]));
+  solve::Control control;
+  // All angles are 0: the wrist's outer axes are one line, and the pose is exact.
+  const Postures found = finder.find({"0.4521", "-0.15005", "0.4318"}, rotation_of({1, 0, 0, 0}), control);
+  EXPECT_TRUE(found.complete);
+  EXPECT_EQ(found.at_least(), 6);
+  EXPECT_FALSE(found.at_most());
+  ASSERT_EQ(found.families.size(), 1u);
+  EXPECT_EQ(found.families[0].dimension, 1);
+  EXPECT_TRUE(found.families[0].proven);
+  for (const CoordinateValue& v : found.families[0].values) {
+    const bool turns = v.name == "q4" || v.name == "q6";
+    EXPECT_TRUE(turns ? v.value.width() > 6.2 : v.value.mag() < 1e-6) << v.name << " in " << v.value;
+  }
+}
+
+TEST(Postures, NearASingularityAreNotClaimedToBeAll) {
+  const Arm& puma = arms()[1];
+  const PostureFinder finder = finder_of(arm_question(puma));
+  Joints q;
+  q << 0.3, 0.5, 0.7, 0.2, 0, 0.4;  // rounded: two postures a hundred-millionth apart
+  const Pose pose = pose_of(hand(puma, q));
+  solve::Control control;
+  const Postures found = finder.find(pose.position, pose.orientation, control);
+  EXPECT_GE(found.at_least(), 6);
+  EXPECT_TRUE(!found.at_most() || *found.at_most() == 8);
+}
+
+TEST(Postures, OutOfReachAreNone) {
+  const PostureFinder finder = finder_of(arm_question(arms()[0]));
+  solve::Control control;
+  const Postures found = finder.find({"2", "0", "0"}, rotation_of({1, 0, 0, 0}), control);
+  EXPECT_EQ(found.at_most(), 0);
+}
+
+TEST(Postures, KeepTheJointsRanges) {
+  const Arm& gofa = arms()[3];
+  const PostureFinder all = finder_of(arm_question(gofa)), some = finder_of(arm_question(gofa, "limits [-100deg, 100deg]"));
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> angle(-1.5, 1.5);
+  int left_out = 0;
+  for (int n = 0; n < 10; ++n) {
+    const Pose pose = pose_of(hand(gofa, Joints::NullaryExpr([&] { return angle(random); })));
+    solve::Control control;
+    const Postures free = all.find(pose.position, pose.orientation, control),
+                   kept = some.find(pose.position, pose.orientation, control);
+    const auto inside = [](const Posture& posture) {
+      return std::ranges::all_of(posture.values, [](const CoordinateValue& v) { return v.value.mag() < 100 * M_PI / 180; });
+    };
+    EXPECT_EQ(kept.at_most(), std::ranges::count_if(free.found, inside));
+    left_out += static_cast<int>(free.found.size() - kept.found.size());
+  }
+  EXPECT_GT(left_out, 10);
+}
+
+PostureFinder dextar(const std::vector<std::string>& given) {
+  study::Model model = study::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
+  return PostureFinder({.question = {.model = std::move(model.mechanism)}, .given = given});
+}
+
+TEST(Postures, OfAFiveBarAreTwoAtItsMotorsAndFourAtItsPoint) {
+  solve::Control control;
+  EXPECT_EQ(dextar({"theta2", "theta5"}).find({"pi/2", "2"}, {}, control).at_most(), 2);
+  const Postures four = dextar({"J3x", "J3y"}).find({"0.4", "1"}, {}, control);
+  EXPECT_EQ(four.at_most(), 4);
+  EXPECT_EQ(four.at_least(), 4);
+  EXPECT_EQ(dextar({"theta2", "theta5"}).find({"pi/3", "2"}, {}, control).at_most(), 0) << "its elbows are too far apart";
+}
+
+// A prismatic joint is in it: the general way.
+TEST(Postures, OfAnArmWithASlideAreFoundToo) {
+  study::Model model =
+      study::parse_model({"[CONSTANTS]\nunit m\n[DH]\nstandard\na alpha d theta\n0 -90deg 0.4 q1\n0 90deg 0.15 q2\n0 0 q3 "
+                          "-pi/2 range [0.2, 1]\n"
+                          "0 -90deg 0 q4\n0 90deg 0 q5\n0 0 0.2 q6\n",
+                          "stanford.cuik"});
+  const PostureFinder finder = finder_of({.model = std::move(model.mechanism), .assembly = std::move(model.assembly)});
+  EXPECT_EQ(finder.way(), "hand held");
+  solve::Control control;
+  const Postures found = finder.find({"0.3", "0.4", "0.6"}, rotation_of({3, 1, 1, 2}), control);
+  EXPECT_TRUE(found.complete);
+  EXPECT_EQ(found.at_most(), 4) << "two ways to reach the wrist's centre with the slide on its side, two of the wrist";
+}
+
+TEST(Postures, AreRefusedWhereTheQuestionMakesNoSense) {
+  const auto fault = [](auto&& question) -> std::string {
+    try {
+      question();
+    } catch (const symbolic::ModelError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  solve::Control control;
+  EXPECT_THAT(fault([&] { dextar({"theta2"}).find({"1"}, {}, control); }), HasSubstr("leave 1 degree of freedom"));
+  EXPECT_THAT(fault([&] { dextar({"x"}); }), HasSubstr("there is no coordinate 'x'"));
+  EXPECT_THAT(fault([&] { dextar({"J3x", "J3x"}); }), HasSubstr("two values"));
+  study::Model five_bar = study::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
+  EXPECT_THAT(fault([&] { PostureFinder({.question = {.model = five_bar.mechanism}, .given = {}, .orientation = true}); }),
+              HasSubstr("which orientation is meant"));
+  EXPECT_THROW(rotation_of({0, 0, 0, 0}), std::invalid_argument);
+}
+
+TEST(PostureTable, ComparesSomebodyElsesSolutions) {
+  const Arm& ur5 = arms()[0];
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> angle(-M_PI, M_PI);
+  std::string poses = "tool_x, tool_y, tool_z, qw, qx, qy, qz\n% three of them\n";
+  std::vector<Joints> made_by;
+  for (int n = 0; n < 3; ++n) {
+    made_by.push_back(Joints::NullaryExpr([&] { return angle(random); }));
+    const Matrix4d t = hand(ur5, made_by.back());
+    const Eigen::Quaterniond q(Eigen::Matrix3d(t.topLeftCorner<3, 3>()));
+    char line[400];
+    std::snprintf(line, sizeof line, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", t(0, 3), t(1, 3), t(2, 3), q.w(), q.x(),
+                  q.y(), q.z());
+    poses += line;
+  }
+  const Table table = parse_table(poses, "poses.csv");
+  const PostureFinder finder(question_of(table, arm_question(ur5), ""));
+  const std::vector<PoseRow> rows = rows_of(table, "poses.csv");
+  solve::Control control;
+  const std::vector<Postures> found = find_all(finder, rows, 2, control);
+  ASSERT_EQ(found.size(), 3u);
+  const std::string csv = to_csv(finder, found);
+  EXPECT_EQ(csv, to_csv(finder, find_all(finder, rows, 1, control)));
+  std::size_t all = 0;
+  for (const Postures& p : found) all += p.found.size();
+  const Comparison own = compare(finder, found, parse_table(csv, "own.csv"), "own.csv", 1e-9);
+  EXPECT_EQ(own.agreed, all);
+  EXPECT_TRUE(own.missing.empty() && own.wrong.empty() && own.open.empty());
+  // A solver that finds one posture of each pose, turned by a whole turn, and one that is none.
+  std::string others = "pose,q1,q2,q3,q4,q5,q6\n";
+  for (int n = 0; n < 3; ++n)
+    for (const double off : {0.0, 0.01}) {
+      others += std::to_string(n + 1);
+      for (int k = 0; k < 6; ++k) others += "," + std::to_string(made_by[n][k] + (k == 1 ? 2 * M_PI : 0) + off);
+      others += "\n";
+    }
+  const Comparison other = compare(finder, found, parse_table(others, "others.csv"), "others.csv", 1e-5);
+  EXPECT_EQ(other.agreed, 3u);
+  EXPECT_EQ(other.wrong.size(), 3u);
+  EXPECT_EQ(other.missing.size(), all - 3);
+  EXPECT_THAT(to_table(finder, found, &other), HasSubstr("  wrong    3\n    pose 1: q1 ="));
+  EXPECT_THAT(to_json(finder, found, &other), HasSubstr("\"against\":{\"agreed\":3,"));
+}
+
+TEST(PostureTable, IsRefusedWithItsLine) {
+  const auto fault = [](const std::string& text) -> std::string {
+    try {
+      static_cast<void>(rows_of(parse_table(text, "t.csv"), "t.csv"));
+    } catch (const symbolic::ModelError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(fault(""), HasSubstr("t.csv:1:1: the table is empty"));
+  EXPECT_THAT(fault("a,b\n1,2\n\n1\n"), HasSubstr("t.csv:4:1: 1 values under 2 names"));
+  EXPECT_THAT(fault("a,qw\n1,2\n"), HasSubstr("the quaternion is not complete"));
+  EXPECT_THAT(fault("qw,qx,qy,qz\n1,0,0,0\n0,0,0,0\n"), HasSubstr("t.csv:3:1: the quaternion"));
+  EXPECT_THAT(fault("qw,qx,qy,qz\n1,0,0,z\n"), HasSubstr("t.csv:2:1: the quaternion"));
+  EXPECT_EQ(fault("a,b\n1,pi/2\n"), "none");
+}
+
+}  // namespace
+}  // namespace corank::analyze
