@@ -40,7 +40,7 @@ ExitStatus find_out(CuspidalCommand command) {
   };
   const analyze::Cuspidality found = analyze::cuspidality(question, command.options, run.control());
   line.clear();
-  if (found.cuspidal && !command.output.empty())
+  if (found.path && !command.output.empty())
     result::write_path(command.output, analyze::to_file(*found.finder, *found.path));
   if (command.json.say([&] { return to_json(found, question.model.name(), command.output); }))
     fmt::print("{}", result::printable(to_text(found, question.model.name())));
@@ -68,7 +68,8 @@ void add_cuspidal(CLI::App& program, Action& action) {
   command->json.add(*sub);
   sub->footer(
       "The proof that a robot is cuspidal is two postures of one pose, and a path between them about which there is no\n"
-      "singularity. That a robot is not cuspidal is not proven: the answer is then 'open'.\n\n"
+      "singularity. That it is not is proven for arms with a spherical wrist, or three parallel axes, whose other axes are\n"
+      "parallel or perpendicular as in most industrial robots. Else the answer is 'open'.\n\n"
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
       "Example:\n  corank cuspidal models/serial/orthogonal_3r.cuik -o path.h5\n  corank verify path.h5");
   sub->callback([command, &action] { action = [command] { return find_out(*command); }; });

@@ -191,7 +191,7 @@ py::tuple cuspidal(const Question& question, const std::optional<std::string>& o
   return said(progress, within(time_limit, [question, options](solve::Control& control) {
                 const analyze::Cuspidality found = analyze::cuspidality(question, options, control);
                 std::shared_ptr<result::PathFile> file;
-                if (found.cuspidal) file = std::make_shared<result::PathFile>(to_file(*found.finder, *found.path));
+                if (found.path) file = std::make_shared<result::PathFile>(to_file(*found.finder, *found.path));
                 const std::string name = question.model.name();
                 return std::tuple(to_json(found, name, ""), to_text(found, name), file);
               }));

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "corank/analyze/clearance/json.h"
-#include "corank/kinematics/robot/robot.h"
+#include "corank/kinematics/equations/six_joints.h"
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/model/evaluate.h"
 #include "corank/symbolic/model/model_file.h"
@@ -66,10 +66,17 @@ class CuspidalSearch {
   }
 
   Cuspidality run() {
+    if (const std::string why = told_apart(); !why.empty()) {
+      result_.cuspidal = false;
+      result_.complete = true;
+      result_.reason = why;
+      return std::move(result_);
+    }
     for (; result_.poses < options_.poses && !control_.ended() && !result_.cuspidal; ++result_.poses) {
       if (options_.progress) options_.progress(result_.poses, result_.same_sign);
       try_pose();
     }
+    result_.complete = result_.cuspidal || !control_.ended();
     if (!result_.cuspidal)
       result_.reason = control_.ended() ? "stopped by a limit"
                        : result_.same_sign == 0
@@ -79,6 +86,24 @@ class CuspidalSearch {
   }
 
  private:
+  // Why three signs tell all postures of a pose apart, where a theorem says so.
+  std::string told_apart() const {
+    const std::string end = ": three signs tell all postures of a pose apart, and none changes without a singularity";
+    if (!hand_ || hand_->kind != kinematics::Output::Kind::pose || hand_->relative_to != 0 || given_.size() != 3) return {};
+    const auto arm = kinematics::signed_arm(*question_.assembly->robot, hand_->link);
+    if (!arm) return {};
+    switch (*arm) {
+      case kinematics::SignedArm::spherical_wrist:
+        return "the last three axes meet in a point, the first one is perpendicular to the second, which is parallel to the "
+               "third" +
+               end;
+      case kinematics::SignedArm::three_parallel_axes:
+        return "axes 2, 3 and 4 are parallel, axis 1 is perpendicular to them, axis 5 to axis 4, and axes 5 and 6 meet" +
+               end;
+    }
+    return {};
+  }
+
   bool is_output(const std::string& name) const {
     if (std::ranges::count(question_.model.outputs(), name) > 0) return true;
     if (!question_.assembly) return false;
@@ -239,6 +264,7 @@ Cuspidality cuspidality(const study::Question& question, const CuspidalOptions& 
 
 std::string to_text(const Cuspidality& c, const std::string& model) {
   std::string text = fmt::format("{}: ", model);
+  if (c.cuspidal == false) return text + fmt::format("not cuspidal, proven: {}\n", c.reason);
   if (!c.cuspidal) {
     text += fmt::format("open whether it is cuspidal: {}\n", c.reason);
     return text + fmt::format("{} poses tried, at most {} postures, {:.1f} s\n", c.poses, c.most, c.seconds);
@@ -254,17 +280,18 @@ std::string to_text(const Cuspidality& c, const std::string& model) {
 
 std::string to_json(const Cuspidality& c, const std::string& model, const std::string& file) {
   Json json = {{"model", model}, {"cuspidal", or_null(c.cuspidal)}, {"of", to_string(c.of)}, {"given", Json::object()}};
-  if (c.cuspidal)
+  if (c.path)
     for (const CoordinateValue& v : c.given) json["given"][v.name] = v.value.mid();
-  json["quaternion"] = c.cuspidal && c.quaternion ? Json(*c.quaternion) : Json();
-  json["from"] = c.cuspidal ? ends_of(c.from) : Json();
-  json["to"] = c.cuspidal ? ends_of(c.to) : Json();
+  json["quaternion"] = c.path && c.quaternion ? Json(*c.quaternion) : Json();
+  json["from"] = c.path ? ends_of(c.from) : Json();
+  json["to"] = c.path ? ends_of(c.to) : Json();
   json["radius"] = c.path ? Json(c.path->tube->radius()) : Json();
-  json["certificate"] = c.cuspidal ? or_null(file) : Json();
+  json["certificate"] = c.path ? or_null(file) : Json();
   json["poses"] = c.poses;
   json["most_postures"] = c.most;
   json["same_sign"] = c.same_sign;
   json["reason"] = or_null(c.reason);
+  json["complete"] = c.complete;
   json["seconds"] = c.seconds;
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -3,7 +3,7 @@
 // An arm is cuspidal if two of its postures at one pose are joined by a motion without an inverse singularity; a parallel
 // robot if two poses of its platform at one position of its motors are joined by one without a forward singularity
 // (key Salunkhe2022). The proof that one is: the two postures, proven, and a tube between them
-// (analyze/paths/path.h). That a robot is not cuspidal is not proven here.
+// (analyze/paths/path.h). For two kinds of arms a theorem says that they are not (kinematics/equations/six_joints.h).
 #pragma once
 
 #include <functional>
@@ -27,7 +27,7 @@ struct CuspidalOptions {
 };
 
 struct Cuspidality {
-  std::optional<bool> cuspidal;  ///< true: proven; nothing: open
+  std::optional<bool> cuspidal;  ///< true, false: proven; nothing: open
   Avoid of = Avoid::inverse;
   std::vector<CoordinateValue> given;                 ///< points: the pose, or the motors' values
   std::optional<std::array<double, 4>> quaternion{};  ///< and the orientation, w, x, y, z, exactly
@@ -37,7 +37,8 @@ struct Cuspidality {
   int poses = 0;              ///< that were tried
   std::size_t most = 0;       ///< postures of one of them
   std::size_t same_sign = 0;  ///< pairs of postures that no sign tells apart
-  std::string reason;         ///< why it is open
+  std::string reason;         ///< why it is not, or why it is open
+  bool complete = false;      ///< not ended by a limit
   double seconds = 0;
 };
 
@@ -45,9 +46,9 @@ struct Cuspidality {
 Cuspidality cuspidality(const study::Question& question, const CuspidalOptions& options, solve::Control& control);
 
 std::string to_text(const Cuspidality& c, const std::string& model);
-/// {"model", "cuspidal": true or null, "of", "given": {name: value}, "quaternion" (null, or four numbers), "from", "to" (null,
-/// or {name: {"lo", "hi"}}), "radius", "certificate" (null, or `file`), "poses", "most_postures", "same_sign", "reason",
-/// "seconds"}.
+/// {"model", "cuspidal": true, false or null, "of", "given": {name: value}, "quaternion" (null, or four numbers), "from",
+/// "to" (null, or {name: {"lo", "hi"}}), "radius", "certificate" (null, or `file`), "poses", "most_postures", "same_sign",
+/// "reason", "complete", "seconds"}.
 std::string to_json(const Cuspidality& c, const std::string& model, const std::string& file);
 
 }  // namespace corank::analyze

@@ -250,4 +250,25 @@ std::optional<SixJoints> six_joints(const Robot& robot, std::size_t hand) {
   return loop.write(*best);
 }
 
+std::optional<SignedArm> signed_arm(const Robot& robot, std::size_t hand) {
+  robot.validate();
+  const symbolic::GinacLock lock;
+  Algebra algebra(robot);
+  const Bodies bodies = bodies_of(robot, algebra);
+  const std::vector<Step> chain = chain_to(robot, bodies, bodies.of_link[hand]);
+  if (chain.empty()) return std::nullopt;
+  // Of the two axes in the link behind joint k, from 1.
+  const auto near = [&](std::size_t k) { return chain[k - 1].end(true); };
+  const auto far = [&](std::size_t k) { return chain[k].end(false); };
+  const auto parallel = [&](std::size_t k) { return algebra.are_parallel(near(k).axis, far(k).axis); };
+  const auto perpendicular = [&](std::size_t k) { return algebra.is_zero(dot(near(k).axis, far(k).axis)); };
+  const auto meet = [&](std::size_t k) { return !parallel(k) && algebra.is_zero(SkewLink(near(k), far(k)).between()[2]); };
+  if (!perpendicular(1) || !parallel(2) || !meet(5)) return std::nullopt;
+  if (parallel(3) && perpendicular(4)) return SignedArm::three_parallel_axes;
+  if (parallel(3) || !meet(4)) return std::nullopt;
+  // Where axis 4 meets axis 5, and where axis 6 does, from the joint's point.
+  const ex gap = SkewLink(near(4), far(4)).between()[1] + SkewLink(near(5), far(5)).between()[0];
+  return algebra.is_zero(gap) ? std::optional(SignedArm::spherical_wrist) : std::nullopt;
+}
+
 }  // namespace corank::kinematics

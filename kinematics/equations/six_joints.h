@@ -43,4 +43,14 @@ struct SixJoints {
 /// Throws ModelError where the robot is faulty.
 std::optional<SixJoints> six_joints(const Robot& robot, std::size_t hand);
 
+/// Arms of six revolute joints of which three signs tell all postures of a pose apart, whereas none of these changes without
+/// a singularity. So no motion without a singularity leads from one posture to another: they are not cuspidal. Theorem and
+/// proof: doc/theory.md, "Arms that are not cuspidal".
+enum class SignedArm {
+  spherical_wrist,     ///< axes 4, 5 and 6 meet in a point, 1 ⟂ 2, 2 ∥ 3
+  three_parallel_axes  ///< 2 ∥ 3 ∥ 4, 1 ⟂ 2, 4 ⟂ 5, axes 5 and 6 meet
+};
+/// Nothing where the robot is none of these, or it is not known. Throws ModelError where it is faulty.
+std::optional<SignedArm> signed_arm(const Robot& robot, std::size_t hand);
+
 }  // namespace corank::kinematics

@@ -200,7 +200,6 @@ class Postures(Analysis):
         proven: for each one: is it proven to exist within the ranges? False only at the end of a range.
         at_least, at_most: proven bounds of their number; at_most is None if it is not known.
         families: sets of postures of a larger dimension: (dimension, proven, intervals by name).
-        complete: did the search come to its end?
     """
 
     def __init__(self, text: str, table: str) -> None:
@@ -210,23 +209,22 @@ class Postures(Analysis):
         self.at_least: int = self.data["at_least"]
         self.at_most: Optional[int] = self.data["at_most"]
         self.families = [(f["dimension"], f["proven"], _values(f["values"])) for f in self.data["families"]]
-        self.complete: bool = self.data["complete"]
 
 
 class Cuspidality(Analysis, Certified):
-    """Whether a robot changes its posture, at the same pose, without meeting a singularity. bool(c): is that proven?
+    """Whether a robot changes its posture, at the same pose, without meeting a singularity. bool(c): is it proven to do so?
 
     Attributes:
-        cuspidal: True if it is proven; None if it is open.
+        cuspidal: True or False if that is proven; None if it is open.
         of: "inverse" or "forward": the singularities that are not met.
         given: the pose, or the motors' values, by coordinate.
         quaternion: the orientation (w, x, y, z); None if the pose has none in space.
-        from_, to: the two postures, intervals by coordinate; None if it is open.
+        from_, to: the two postures, intervals by coordinate; None unless it is.
         same_sign: the number of pairs of postures that no sign of a determinant's factor tells apart.
-        reason: why it is open.
+        reason: why it is not, or why it is open.
     """
 
-    _missing = "there is no certificate: it is open whether the robot is cuspidal"
+    _missing = "there is no certificate: the robot is not proven to be cuspidal"
 
     def __init__(self, text: str, table: str, file: Optional["_corank.PathFile"] = None) -> None:
         super().__init__(text, table)
@@ -239,6 +237,13 @@ class Cuspidality(Analysis, Certified):
         self.to = None if self.data["to"] is None else _values(self.data["to"])
         self.same_sign: int = self.data["same_sign"]
         self.reason: Optional[str] = self.data["reason"]
+
+    def verify(self, *, progress: ProgressOption = None) -> bool:  # type: ignore[override]
+        """Checks the path between the postures with code that shares nothing with the code that found it. Raises ValueError
+        if there is none."""
+        with Shown(progress) as show:
+            text, _, raised = self._need().verify(1, show)
+        return deliver(bool(json.loads(text)["verified"]), raised)
 
     def __bool__(self) -> bool:
         return bool(self.cuspidal)
@@ -424,7 +429,7 @@ def cuspidal(
     progress: ProgressOption = None,
 ) -> Cuspidality:
     """Finds out whether the robot changes its posture, at the same pose, without meeting a singularity. With a proof if it
-    does; that it does not is not proven.
+    does. That it does not is proven for arms with a spherical wrist, or three parallel axes, as most industrial robots have.
 
     Args:
         of: "inverse": postures of an arm at a pose (default for robots without loops); "forward": poses for the same values

@@ -38,8 +38,8 @@ void check_conditions(const Mechanism& mechanism, const std::vector<Condition>& 
 
 /// The system, its equations derived before, with its parameters as lengths at the end of its coordinates. Constants that
 /// are defined through a parameter follow it. Constants that have tolerances stay what they are. A coordinate's range that
-/// depends on a parameter is as wide as it gets for any value, and a fiftieth more. Half-spaces that drop the negatives of kernel vectors are left out: `copies` says how many solutions
-/// then stand for one, 2 for each of them.
+/// depends on a parameter is as wide as it gets for any value, and a fiftieth more. Half-spaces that drop the negatives of
+/// kernel vectors are left out: `copies` says how many solutions then stand for one, 2 for each of them.
 /// Throws ModelError where a name is none of a constant or coordinate or comes twice, an angle's range depends on a
 /// parameter, and for a system in whose solutions a fixed coordinate has a second copy.
 struct ParametricSystem {

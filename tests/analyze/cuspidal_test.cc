@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "corank/kinematics/equations/six_joints.h"
 #include "corank/result/values/claim_files.h"
 #include "corank/study/model.h"
 
@@ -63,16 +64,57 @@ TEST(Cuspidal, AnOrthogonalArmOfThreeJointsAndAPlatformOnThreeLegsAreProvenToBe)
   expect_proof(platform);
 }
 
-TEST(Cuspidal, ArmsWhosePosturesSignsTellApartStayOpen) {
-  const Cuspidality ur5 = asked(robot_of(arm("0 90deg 0.089159 q1\n-0.425 0 0 q2\n-0.39225 0 0 q3\n0 90deg 0.10915 q4\n"
-                                             "0 -90deg 0.09465 q5\n0 0 0.0823 q6\n")),
-                                3);
-  EXPECT_FALSE(ur5.cuspidal);
-  EXPECT_EQ(ur5.same_sign, 0u);
-  EXPECT_EQ(ur5.most, 8u);
-  EXPECT_THAT(ur5.reason, HasSubstr("tell all postures apart"));
+const char* const kPuma =
+    "0 90deg 0 q1\n0.4318 0 0 q2\n0.0203 -90deg 0.15005 q3\n0 90deg 0.4318 q4\n0 -90deg 0 q5\n0 0 0 q6\n";
+const char* const kUr5 =
+    "0 90deg 0.089159 q1\n-0.425 0 0 q2\n-0.39225 0 0 q3\n0 90deg 0.10915 q4\n0 -90deg 0.09465 q5\n0 0 0.0823 q6\n";
+
+bool is_signed(const std::string& rows) {
+  const study::Question question = robot_of(arm(rows));
+  const kinematics::Robot& robot = *question.assembly->robot;
+  return kinematics::signed_arm(robot, robot.links.size() - 1).has_value();
+}
+
+TEST(Cuspidal, IndustrialArmsAreProvenNotToBe) {
+  const std::string shoulder = "0.15 90deg 0.4 q1\n0.6 0 0 q2\n0.2 90deg 0 q3\n",  // an offset of axis 2
+      oblique_wrist = "0 50deg 0.7 q4\n0 -50deg 0 q5\n0 0 0.1 q6\n";
+  for (const std::string& rows : {std::string(kPuma), std::string(kUr5), shoulder + oblique_wrist}) {
+    const Cuspidality c = asked(robot_of(arm(rows)));
+    EXPECT_EQ(c.cuspidal, false) << rows;
+    EXPECT_FALSE(c.path);
+    EXPECT_THAT(to_json(c, "arm", "path.h5"), HasSubstr("\"certificate\": null"));
+    EXPECT_THAT(to_text(c, "arm"), HasSubstr("arm: not cuspidal, proven: "));
+  }
+}
+
+// What a theorem says of arms is not said of those next to them, a length or an angle off.
+TEST(Cuspidal, OtherArmsAreNotClaimedNotToBe) {
+  struct Change {
+    const char *arm, *from, *to;
+  };
+  const std::vector<Change> changes{{kPuma, "0 90deg 0 q1", "0 80deg 0 q1"},
+                                    {kPuma, "0.4318 0 0 q2", "0.4318 5deg 0 q2"},
+                                    {kPuma, "0 90deg 0.4318 q4", "0.01 90deg 0.4318 q4"},
+                                    {kPuma, "0 -90deg 0 q5", "0 -90deg 0.01 q5"},
+                                    {kPuma, "0 -90deg 0 q5", "0.01 -90deg 0 q5"},
+                                    {kUr5, "-0.39225 0 0 q3", "-0.39225 1deg 0 q3"},
+                                    {kUr5, "0 -90deg 0.09465 q5", "0.01 -90deg 0.09465 q5"},
+                                    {kUr5, "0 90deg 0.10915 q4", "0 89deg 0.10915 q4"},
+                                    {kUr5, "0 90deg 0.089159 q1", "0 91deg 0.089159 q1"}};
+  for (const Change& change : changes) {
+    std::string rows = change.arm;
+    EXPECT_TRUE(is_signed(rows));
+    rows.replace(rows.find(change.from), std::string(change.from).size(), change.to);
+    EXPECT_FALSE(is_signed(rows)) << change.to;
+  }
+}
+
+TEST(Cuspidal, RobotsWhosePosturesSignsTellApartStayOpen) {
   study::Model dextar = study::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik");
-  EXPECT_FALSE(asked({.model = std::move(dextar.mechanism)}).cuspidal);
+  const Cuspidality c = asked({.model = std::move(dextar.mechanism)});
+  EXPECT_FALSE(c.cuspidal);
+  EXPECT_EQ(c.same_sign, 0u);
+  EXPECT_THAT(c.reason, HasSubstr("tell all postures apart"));
 }
 
 TEST(Cuspidal, IsAskedOfWholeRobotsAndOneKindOfSingularity) {

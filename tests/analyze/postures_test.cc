@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "corank/analyze/postures/posture_table.h"
 #include "corank/study/model.h"
@@ -160,6 +161,70 @@ TEST(Postures, OfArmsFromDataSheetsAreAllFound) {
     EXPECT_LE(unknown, poses / 12);
     EXPECT_GE(most, 8u);
     EXPECT_TRUE(std::string(arm.name) != "puma" || most == 8u);
+  }
+}
+
+// Frames 0 … 6; joint k turns about z of frame k − 1.
+std::vector<Matrix4d> frames(const Arm& arm, const Joints& q) {
+  std::vector<Matrix4d> result;
+  for (int n = 0; n <= 6; ++n) {
+    Arm part = arm;
+    Joints turned = q;
+    for (int k = n; k < 6; ++k) part.rows[static_cast<std::size_t>(k)] = {0, 0, 0}, turned[k] = 0;
+    result.push_back(hand(part, turned));
+  }
+  return result;
+}
+
+// The three functions of the theorem (theory.md, "Arms that are not cuspidal"), and the Jacobian's determinant.
+struct Signs {
+  Vector3d values;
+  double determinant;
+};
+Signs signs_of(const Arm& arm, const Joints& q, bool parallel) {
+  const std::vector<Matrix4d> t = frames(arm, q);
+  const auto z = [&](std::size_t joint) -> Vector3d { return t[joint - 1].block<3, 1>(0, 2); };
+  const auto at = [&](std::size_t frame) -> Vector3d { return t[frame].block<3, 1>(0, 3); };
+  const Vector3d n = z(2), centre = at(parallel ? 5 : 4), end = parallel ? at(3) : centre;
+  Eigen::Matrix<double, 6, 6> j;
+  for (std::size_t k = 1; k <= 6; ++k) {
+    j.block<3, 1>(0, static_cast<int>(k) - 1) = z(k).cross(at(6) - at(k - 1));
+    j.block<3, 1>(3, static_cast<int>(k) - 1) = z(k);
+  }
+  return {{centre.dot(n.cross(z(1))), n.dot((end - at(1)).cross(end - at(2))), (parallel ? n : z(4)).cross(z(5)).dot(z(6))},
+          j.determinant()};
+}
+
+TEST(Postures, OfIndustrialArmsAreToldApartByThreeSigns) {
+  std::mt19937 random(12);
+  const auto in = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+  const auto length = [&] { return std::round(in(50, 500)) / 1000; };
+  const auto turn = [&] { return std::round(in(40, 140)); };
+  const auto any = [&] { return Joints(Joints::NullaryExpr([&] { return in(-M_PI, M_PI); })); };
+  for (unsigned n = 0; n < test::seeds(8); ++n) {
+    const bool parallel = n % 2 == 0;
+    Arm arm{"arm", {{{length(), 90, length()}, {length(), 0, length()}, {}, {}, {}, {0, 0, length()}}}, 16};
+    arm.rows[2] = {length(), parallel ? 0 : turn(), length()};
+    arm.rows[3] = {parallel ? length() : 0, parallel ? -90 : turn(), length()};
+    arm.rows[4] = {0, turn(), parallel ? length() : 0};
+    SCOPED_TRACE(parallel ? "three parallel axes" : "spherical wrist");
+    const Signs first = signs_of(arm, any(), parallel);
+    const double ratio = first.determinant / first.values.prod();
+    const PostureFinder finder = finder_of(arm_question(arm));
+    for (int pose = 0; pose < 3; ++pose) {
+      const Joints q = any();
+      const Signs there = signs_of(arm, q, parallel);
+      EXPECT_NEAR(there.determinant, ratio * there.values.prod(), 1e-9 * std::fabs(ratio)) << "0 at singularities only";
+      const Pose at = pose_of(hand(arm, q));
+      solve::Control control;
+      const Postures found = finder.find(at.position, at.orientation, control);
+      if (found.at_most() != found.at_least()) continue;
+      std::set<std::array<bool, 3>> seen;
+      for (const Posture& posture : found.found) {
+        const Vector3d g = signs_of(arm, joints_of(posture), parallel).values;
+        EXPECT_TRUE(seen.insert({g[0] > 0, g[1] > 0, g[2] > 0}).second) << "two postures of the same signs";
+      }
+    }
   }
 }
 

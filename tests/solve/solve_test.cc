@@ -272,11 +272,11 @@ TEST(Solve, SaysNothingIsInsideBeyondTheExactDomain) {
 }
 
 TEST(Solve, EndsWhereRoundingKeepsASheetWide) {
-  // 9u² = 16, y = 1e8·u − 133333333.333: the box of y stays as wide as the rounding of 1e8·u.
+  // 9u² = 16, y = 1e8·u³ − 237037037.037: the box of y stays as wide as the rounding of 1e8·u³.
   SystemBuilder b;
   const int u = b.variable("u", "1", "2"), y = b.variable("y", "-1", "1");
   b.equation({{"9", {{u, 2}}}, {"-16", {}}});
-  b.equation({{"1", {{y, 1}}}, {"-1e8", {{u, 1}}}, {"133333333.333", {}}});
+  b.equation({{"1", {{y, 1}}}, {"-1e8", {{u, 3}}}, {"237037037.037", {}}});
   Options options;
   options.sigma = 3e-9;
   options.max_boxes = 1000;
