@@ -71,7 +71,7 @@ void add_cuspidal(CLI::App& program, Action& action) {
       "singularity. That it is not is proven for arms with a spherical wrist, or three parallel axes, whose other axes are\n"
       "parallel or perpendicular as in most industrial robots. Else the answer is 'open'.\n\n"
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
-      "Example:\n  corank cuspidal models/serial/orthogonal_3r.cuik -o path.h5\n  corank verify path.h5");
+      "Example:\n  corank cuspidal models/planar/3rpr.cuik -o path.h5\n  corank verify path.h5");
   sub->callback([command, &action] { action = [command] { return find_out(*command); }; });
 }
 

@@ -54,7 +54,8 @@ ExitStatus find_postures_of_table(const PosturesCommand& command) {
   if (command.json.say([&] { return to_json(finder, found, compared); }))
     fmt::print("{}", result::printable(to_table(finder, found, compared)));
   const bool complete = std::ranges::all_of(found, [](const analyze::Postures& p) { return p.complete; });
-  return complete ? kDone : stopped_early(run.control());
+  if (complete) return kDone;
+  return run.control().ended() ? stopped_early(run.control()) : kIncomplete;
 }
 
 ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
@@ -86,7 +87,8 @@ ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
   const analyze::Postures found = finder.find(values, orientation, run.control(), command.threads);
   line.clear();
   if (command.json.say([&] { return to_json(finder, found); })) fmt::print("{}", result::printable(to_table(finder, found)));
-  return found.complete ? kDone : stopped_early(run.control());
+  if (found.complete) return kDone;
+  return run.control().ended() ? stopped_early(run.control()) : kIncomplete;
 }
 
 }  // namespace
@@ -129,10 +131,9 @@ void add_postures(CLI::App& program, Action& action) {
       "Each posture that is listed is proven to exist. Where it says so, it is proven that there are no others within the\n"
       "ranges of the model.\n\n"
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by a limit or an interrupt.\n\n"
-      "Examples: the postures of an arm at a pose, and the poses of a five-bar robot for two angles of its motors\n"
-      "  corank postures models/serial/puma_560.cuik --at hand_x=0.4,hand_y=0.3,hand_z=0.2\\\n"
-      "      --orientation \"Rz(0.3)*Ry(40deg)\"\n"
-      "  corank postures models/dextar.cuik --at theta2=60deg,theta5=2\n"
+      "Examples: the poses of a five-bar robot for two angles of its motors, an arm at a pose, and at many\n"
+      "  corank postures models/dextar.cuik --at theta2=90deg,theta5=2\n"
+      "  corank postures arm.cuik --at tool_x=0.4,tool_y=0.2,tool_z=0.5 --orientation \"Rz(0.3)*Ry(40deg)\"\n"
       "  corank postures arm.cuik --table poses.csv -o postures.csv --against mine.csv");
   sub->callback([command, sub, &action] { action = [command, sub] { return find_postures(*sub, *command); }; });
 }

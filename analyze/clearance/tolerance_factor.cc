@@ -72,7 +72,10 @@ class FactorSearch {
   void drawn(ToleranceFactor& result) {
     study::Question question = question_;
     question.model = question.model.nominal();
-    const Clearance found = clearance_of(question, true, result);
+    const Clearance found = clearance_of(question, result);
+    if (options_.radius > found.ball.room)
+      throw question_error(question_, fmt::format("the ball of radius {:g} leaves {}", options_.radius, found.ball.end),
+                           "a smaller radius, or wider ranges");
     if (keeps(found)) return;
     if (!falls_short(found)) return stop(found, "of the robot as drawn", result);
     result.upper = 0;
@@ -84,7 +87,7 @@ class FactorSearch {
   bool decide(double factor, ToleranceFactor& result) {
     Clearance found;
     try {
-      found = clearance_of(scaled(question_, factor), false, result);
+      found = clearance_of(scaled(question_, factor), result);
     } catch (const symbolic::ModelError& error) {
       if (result.steps < 2) throw;  // of the tolerances that were given
       result.reason = fmt::format("{:g} times the tolerances: {}", factor, error.what());
@@ -103,26 +106,30 @@ class FactorSearch {
     return true;
   }
 
-  Clearance clearance_of(const study::Question& question, bool check_center, ToleranceFactor& result) {
+  Clearance clearance_of(const study::Question& question, ToleranceFactor& result) {
     std::uint64_t most = kMostOfStep;
     if (const std::uint64_t all = control_.limits().boxes; all > 0)
       most = std::clamp<std::uint64_t>(all > result.processed ? all - result.processed : 0, 1, most);
     solve::Control part(control_.rest(0, most));
-    Clearance found =
-        clearance(question, ball_, {.precision = options_.precision, .check_center = check_center, .keep = options_.radius},
-                  search_, part);
-    if (check_center) result.ball = found.ball;
+    Clearance found = clearance(question, ball_, {.precision = options_.precision, .keep = options_.radius}, search_, part);
+    if (result.steps == 0) result.ball = found.ball;
     ++result.steps;
     result.processed += found.nearest.statistics.processed;
     return found;
   }
 
-  bool keeps(const Clearance& c) const { return c.nearest.empty || c.nearest.lower >= options_.radius; }
+  /// Every robot, each of which has a configuration at the centre.
+  bool keeps(const Clearance& c) const {
+    const bool is_there = !question_.set || c.center == Clearance::Center::assembled;
+    return is_there && (c.nearest.empty || c.nearest.lower >= options_.radius);
+  }
   bool falls_short(const Clearance& c) const { return c.nearest.upper && *c.nearest.upper < options_.radius; }
   void stop(const Clearance& c, const std::string& where, ToleranceFactor& result) const {
-    result.reason =
-        where + ": " +
-        (c.stopped.empty() ? "whether the radius is kept is neither proven nor excluded" : "stopped by " + c.stopped);
+    result.reason = where + ": " +
+                    (!c.stopped.empty() ? "stopped by " + c.stopped
+                     : question_.set && c.center != Clearance::Center::assembled
+                         ? "it is not proven that every robot has a configuration at the centre"
+                         : "whether the radius is kept is neither proven nor excluded");
   }
 
   study::Question question_;
@@ -140,7 +147,11 @@ ToleranceFactor tolerance_factor(const study::Question& question, const BallOpti
                                  const ToleranceFactorOptions& options, const solve::Options& search,
                                  solve::Control& control) {
   const auto start = std::chrono::steady_clock::now();
-  if (question.model.toleranced().empty())
+  const auto is_wide = [&](const symbolic::Constant& c) {
+    const auto at = [&](const Expression& e) { return symbolic::exact_value(question.model, e, c.name); };
+    return c.tolerance && (at(c.tolerance->upper) - at(c.tolerance->lower)).sign() != 0;
+  };
+  if (std::ranges::none_of(question.model.constants(), is_wide))
     throw question_error(question, "no constant has a tolerance", "one at least, such as l := 0.9 ± 0.001");
   if (!(options.radius > 0) || !std::isfinite(options.radius))
     throw question_error(question, fmt::format("the radius to keep is {}", options.radius), "a positive number");

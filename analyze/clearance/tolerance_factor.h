@@ -25,7 +25,7 @@ struct ToleranceFactorOptions {
 struct ToleranceFactor {
   Ball ball;  ///< of the question itself
   double radius = 0;
-  double lower = 0;             ///< proven: every robot within so many times the tolerances keeps the radius
+  double lower = 0;  ///< proven: every robot within so many times the tolerances reaches the centre and keeps the radius
   std::optional<double> upper;  ///< proven: some robot within so many times the tolerances does not; 0: that as drawn
   std::vector<CoordinateValue> tolerances;  ///< at the lower bound
   std::vector<CoordinateValue> robot;       ///< of the upper bound, its constants

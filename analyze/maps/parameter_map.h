@@ -130,8 +130,8 @@ std::string to_table(const ParameterMap& map);
 /// x_lo, x_hi, y_lo, y_hi, kind, count, at_centre in each row, after a heading; with requirements also standing.
 std::string to_csv(const ParameterMap& map);
 /// {"model", "set", "count", "over": {name: [lo, hi]}, "fixed", "tolerances": {name: [lo, hi]}, "resolution", "cells":
-/// [[x_lo, x_hi, y_lo, y_hi, kind, count, at_centre, standing]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]], "shares" …};
-/// doc/maps.md.
+/// [[x_lo, x_hi, y_lo, y_hi, kind, count, at_centre, standing]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]],
+/// "shares" …}; doc/maps.md.
 std::string to_json(const ParameterMap& map);
 /// For transport: a tile without its sheets as text, and back. Throws std::invalid_argument.
 std::string to_json(const MapTile& tile);

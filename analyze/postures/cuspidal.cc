@@ -62,6 +62,7 @@ class CuspidalSearch {
     }
     PostureQuestion asked{.question = question, .given = given_, .orientation = hand_ != nullptr};
     postures_.emplace(std::move(asked));
+    if (inputs().empty()) throw question_error(question, "it names no inputs", "a robot with motors");
     for (const std::string& name : inputs()) static_cast<void>(coordinate(name));
   }
 
@@ -72,13 +73,16 @@ class CuspidalSearch {
       result_.reason = why;
       return std::move(result_);
     }
-    for (; result_.poses < options_.poses && !control_.ended() && !result_.cuspidal; ++result_.poses) {
+    for (int tries = 0; tries < options_.poses && !control_.ended() && !result_.cuspidal; ++tries) {
       if (options_.progress) options_.progress(result_.poses, result_.same_sign);
       try_pose();
     }
     result_.complete = result_.cuspidal || !control_.ended();
     if (!result_.cuspidal)
       result_.reason = control_.ended() ? "stopped by a limit"
+                       : compared_ == 0 ? "no pose was found at which there are two postures"
+                       : result_.same_sign == 0 && not_compared_ > 0
+                           ? "no two postures of the same signs were found, but some were not compared"
                        : result_.same_sign == 0
                            ? fmt::format("at {} poses the signs of the determinants tell all postures apart", result_.poses)
                            : "no path was found between postures that no sign tells apart";
@@ -146,7 +150,11 @@ class CuspidalSearch {
     }
     std::vector<NamedValue> joints;
     for (const std::string& name : inputs()) joints.push_back({name, decimal(any_value(coordinate(name)))});
-    const std::vector<Box> boxes = result_.finder->ends(joints, control_);
+    std::vector<Box> boxes;
+    try {
+      boxes = result_.finder->ends(joints, control_);
+    } catch (const EndError&) {
+    }
     if (boxes.empty()) return false;
     const Box& box = boxes.front();
     const System& system = result_.finder->system();
@@ -188,8 +196,10 @@ class CuspidalSearch {
     std::vector<Expression> values;
     std::optional<Rotation> orientation;
     if (!choose_pose(values, orientation)) return;
+    ++result_.poses;
     const Postures found = postures_->find(values, orientation, control_);
     result_.most = std::max(result_.most, found.found.size());
+    if (!found.at_most()) ++not_compared_;
     // Where each is in the space of paths, and the signs there.
     std::vector<std::optional<Box>> ends;
     std::vector<std::vector<int>> signs;
@@ -202,7 +212,13 @@ class CuspidalSearch {
     int tried = 0;
     for (std::size_t a = 0; a < ends.size(); ++a)
       for (std::size_t b = a + 1; b < ends.size() && !control_.ended(); ++b) {
-        if (!ends[a] || !ends[b] || signs[a] != signs[b] || std::ranges::count(signs[a], 0) > 0) continue;
+        const auto is_open = [&](std::size_t k) { return !ends[k] || std::ranges::count(signs[k], 0) > 0; };
+        if (is_open(a) || is_open(b)) {
+          ++not_compared_;
+          continue;
+        }
+        ++compared_;
+        if (signs[a] != signs[b]) continue;
         ++result_.same_sign;
         if (tried++ >= kMostPairs) return;
         Path path = result_.finder->find(*ends[a], *ends[b], control_);
@@ -230,7 +246,15 @@ class CuspidalSearch {
       if (std::ranges::count(own, v.name) == 0) add(v);
     try {
       std::vector<Box> boxes = result_.finder->ends(at, control_);
-      if (boxes.size() == 1) return std::move(boxes.front());
+      if (boxes.size() != 1) return std::nullopt;
+      for (const CoordinateValue& v : coordinate_values(result_.finder->system(), boxes.front())) {
+        const auto own_value = std::ranges::find(posture.values, v.name, &CoordinateValue::name);
+        if (own_value == posture.values.end()) continue;
+        const double apart = v.value.mid() - own_value->value.mid();
+        if (std::fabs(std::remainder(apart, 2 * std::numbers::pi)) > 10 * kNear && std::fabs(apart) > 10 * kNear)
+          return std::nullopt;
+      }
+      return std::move(boxes.front());
     } catch (const EndError&) {
     }
     return std::nullopt;
@@ -243,6 +267,7 @@ class CuspidalSearch {
   const kinematics::Output* hand_ = nullptr;
   std::vector<std::string> given_;
   std::optional<PostureFinder> postures_;
+  std::size_t compared_ = 0, not_compared_ = 0;  // pairs of postures
   std::mt19937 random_{2022};
 };
 

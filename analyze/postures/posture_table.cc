@@ -26,7 +26,7 @@ constexpr std::size_t kShown = 5;  // differences in a table
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
-  std::istringstream stream(line);
+  std::istringstream stream(line + ",");  // so that an empty last one counts
   for (std::string cell; std::getline(stream, cell, ',');) {
     const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
     cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
@@ -47,10 +47,11 @@ double number_of(const std::string& text, const symbolic::SourceLocation& where)
   return value;
 }
 
-bool same(double a, double b, bool is_angle, double tolerance) {
-  double d = a - b;
+// Is the value, but for whole turns of an angle, so near the interval?
+bool is_near(double value, const Interval& at, bool is_angle, double tolerance) {
+  double d = value - at.mid();
   if (is_angle) d = std::remainder(d, 2 * std::numbers::pi);
-  return std::fabs(d) <= tolerance;
+  return std::fabs(d) <= tolerance + at.width() / 2;
 }
 
 Json differences(const PostureFinder& finder, const std::vector<Comparison::Difference>& list) {
@@ -85,7 +86,8 @@ int Table::column(const std::string& name) const {
 
 Table parse_table(const std::string& text, const std::string& file) {
   Table table;
-  std::istringstream stream(text);
+  const std::string mark = "\xef\xbb\xbf";  // of UTF-8, which some programs put first
+  std::istringstream stream(text.starts_with(mark) ? text.substr(mark.size()) : text);
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
@@ -94,6 +96,9 @@ Table parse_table(const std::string& text, const std::string& file) {
     std::vector<std::string> cells = cells_of(line);
     if (table.names.empty()) {
       table.names = std::move(cells);
+      for (const std::string& name : table.names)
+        if (std::ranges::count(table.names, name) > 1)
+          throw ModelError({file, number, 1}, "the column '" + name + "' occurs twice", "each name once");
       continue;
     }
     if (cells.size() != table.names.size())
@@ -126,7 +131,8 @@ std::vector<PoseRow> rows_of(const Table& poses, const std::string& file) {
     PoseRow& row = rows.emplace_back();
     for (std::size_t j = 0; j < poses.names.size(); ++j)
       if (std::ranges::find(kQuaternion, poses.names[j]) == kQuaternion.end())
-        row.values.push_back(symbolic::parse_expression(poses.rows[i][j], file + ":" + std::to_string(poses.lines[i])));
+        row.values.push_back(
+            symbolic::parse_expression(poses.rows[i][j], file + ", line " + std::to_string(poses.lines[i])));
     if (!turned) continue;
     try {
       std::array<ExactNumber, 4> q;
@@ -176,6 +182,7 @@ Comparison compare(const PostureFinder& finder, const std::vector<Postures>& pro
   for (const Postures& p : proven) seen.emplace_back(p.found.size(), false);
   for (std::size_t i = 0; i < others.rows.size(); ++i) {
     const symbolic::SourceLocation where{file, others.lines[i], 1};
+    if (std::ranges::all_of(columns, [&](int c) { return others.rows[i][c].empty(); })) continue;  // a pose without any
     const double number = number_of(others.rows[i][pose], where);
     if (!(number >= 1 && number <= static_cast<double>(proven.size())) || number != std::floor(number))
       throw ModelError(where, "there is no pose " + others.rows[i][pose], fmt::format("one of 1 to {}", proven.size()));
@@ -186,7 +193,7 @@ Comparison compare(const PostureFinder& finder, const std::vector<Postures>& pro
     for (std::size_t k = 0; k < at.found.size(); ++k) {
       bool equal = true;
       for (std::size_t j = 0; j < names.size() && equal; ++j)
-        equal = same(other.values[j], at.found[k].values[j].value.mid(), angles[j], tolerance);
+        equal = is_near(other.values[j], at.found[k].values[j].value, angles[j], tolerance);
       if (equal) seen[other.pose][k] = agreed = true;
     }
     if (agreed)
@@ -236,7 +243,8 @@ std::string to_json(const PostureFinder& finder, const std::vector<Postures>& po
 }
 
 std::string to_table(const PostureFinder& finder, const std::vector<Postures>& postures, const Comparison* comparison) {
-  std::string text = fmt::format("{}: {} poses\n", finder.question().question.model.name(), postures.size());
+  std::string text = fmt::format("{}: {} pose{}\n", finder.question().question.model.name(), postures.size(),
+                                 postures.size() == 1 ? "" : "s");
   std::map<int, std::size_t> exactly;
   std::size_t open = 0;
   for (const Postures& p : postures) {

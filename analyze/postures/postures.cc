@@ -1,6 +1,7 @@
 #include "corank/analyze/postures/postures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -76,56 +77,100 @@ std::optional<int> Postures::at_most() const {
 
 struct PostureFinder::Parts {
   PostureQuestion question;
-  std::optional<std::size_t> hand;                   // the link whose orientation is given, in the robot
-  std::array<std::optional<std::size_t>, 3> origin;  // its position's components among the given coordinates
+  std::optional<std::size_t> hand;  // the link whose orientation is given, in the robot
+  std::size_t turned = 0;           // the output that has it
+  // Of an output of the hand: the components of its position among the given coordinates, and its point in the hand's frame.
+  std::optional<std::array<std::size_t, 3>> position;
+  std::array<Expression, 3> point{0, 0, 0};
   std::optional<kinematics::SixJoints> six;
+  std::vector<std::string> names;
+  int freedom = 0;  // by the numbers of coordinates, equations and values
 
   const kinematics::Robot* robot() const {
     return question.question.assembly ? question.question.assembly->robot.get() : nullptr;
   }
-  bool is_whole_pose() const {
-    return hand && question.given.size() == 3 && std::ranges::all_of(origin, [](const auto& k) { return k.has_value(); });
-  }
+  bool is_whole_pose() const { return hand && position && question.given.size() == 3; }
   ModelError error(const std::string& problem, const std::string& expected) const {
     return question_error(question.question, problem, expected);
   }
   void find_hand();
+  void find_position();
+  void find_names();
 
   using Values = std::vector<Expression>;
+  std::array<Expression, 3> origin_at(const Values& values, const Rotation& orientation) const;
   symbolic::Mechanism hand_held(const Values& values, const Rotation& orientation) const;
-  symbolic::Mechanism coordinates_held(const Values& values, const std::optional<Rotation>& orientation) const;
+  /// Nothing where a value is outside its range.
+  std::optional<symbolic::Mechanism> coordinates_held(const Values& values,
+                                                      const std::optional<Rotation>& orientation) const;
   std::vector<CoordinateValue> values_of(const System& system, const Box& box) const;
-  void check_value(const symbolic::Mechanism& model, const std::string& name, const Expression& value) const;
-  void check_dimension(const System& reduced) const;
+  static bool is_in_range(const symbolic::Mechanism& model, const std::string& name, const Expression& value);
 };
 
 void PostureFinder::Parts::find_hand() {
   const std::string expected = "a robot from parts, one link of which has its pose or its orientation in space as output";
-  if (!robot()) throw error("its equations do not say which orientation is meant", expected);
-  std::string names;
-  const kinematics::Output* chosen = nullptr;
+  if (!robot() || !robot()->equations.empty()) throw error("its equations do not say which orientation is meant", expected);
+  if (question.question.assembly->space == kinematics::Space::planar)
+    throw error("in a plane an orientation is an angle", "its value among the others");
+  std::vector<std::string> links;
+  const auto wanted = [&](const kinematics::Output& o) {
+    const std::string& link = robot()->links[o.link].name;
+    return question.orientation_of.empty() || link == question.orientation_of || o.name == question.orientation_of;
+  };
+  for (std::size_t k = 0; k < robot()->outputs.size(); ++k) {
+    const kinematics::Output& o = robot()->outputs[k];
+    if (o.kind != kinematics::Output::Kind::pose && o.kind != kinematics::Output::Kind::orientation) continue;
+    const std::string& link = robot()->links[o.link].name;
+    if (std::ranges::count(links, link) == 0) links.push_back(link);
+    if (!wanted(o) || (hand && o.kind == kinematics::Output::Kind::orientation)) continue;
+    hand = o.link;
+    turned = k;
+  }
+  if (!hand)
+    throw error("no such link has its orientation as output",
+                links.empty() ? expected : fmt::format("one of {}", fmt::join(links, ", ")));
+  if (question.orientation_of.empty() && links.size() > 1)
+    throw error("several links have their orientation as output", fmt::format("one of them: {}", fmt::join(links, ", ")));
+  const kinematics::Output& chosen = robot()->outputs[turned];
+  if (chosen.relative_to != 0)
+    throw error("the orientation is that of one link in another's frame", "an orientation in the world");
+  if (chosen.kept) throw error("the model keeps the orientation of " + chosen.name, "no orientation beside that");
+}
+
+void PostureFinder::Parts::find_position() {
+  // A joint between the ground and the hand would have nothing left to move.
+  for (const kinematics::Joint& j : robot()->joints)
+    if (std::min(j.ends[0].link, j.ends[1].link) == 0 && std::max(j.ends[0].link, j.ends[1].link) == *hand) return;
   for (const kinematics::Output& o : robot()->outputs) {
     using Kind = kinematics::Output::Kind;
-    if (o.kind != Kind::pose && o.kind != Kind::orientation) continue;
-    const std::string& link = robot()->links[o.link].name;
-    names += (names.empty() ? "" : ", ") + link;
-    if (question.orientation_of.empty() ? chosen == nullptr
-                                        : link == question.orientation_of || o.name == question.orientation_of)
-      chosen = &o;
+    if (o.link != *hand || o.relative_to != 0 || (o.kind != Kind::pose && o.kind != Kind::position)) continue;
+    std::array<std::size_t, 3> found{};
+    bool all = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto given = std::ranges::find(question.given, o.name + kAxes[i]);
+      all = all && given != question.given.end();
+      found[i] = given - question.given.begin();
+    }
+    if (!all) continue;
+    position = found;
+    point = o.point;
+    return;
   }
-  if (!chosen) throw error("no such link has its orientation as output", names.empty() ? expected : "one of " + names);
-  if (question.orientation_of.empty() && names.find(", ") != std::string::npos)
-    throw error("several links have their orientation as output", "one of them: " + names);
-  if (chosen->relative_to != 0)
-    throw error("the orientation is that of one link in another's frame", "an orientation in the world");
-  if (chosen->kept) throw error("the model keeps the orientation of " + chosen->name, "no orientation beside that");
-  hand = chosen->link;
-  if (chosen->kind != kinematics::Output::Kind::pose) return;
-  bool at_origin = true;
-  for (const Expression& e : chosen->point) at_origin = at_origin && same_tree(e, Expression(0));
-  for (std::size_t i = 0; at_origin && i < 3; ++i) {
-    const auto given = std::ranges::find(question.given, chosen->name + kAxes[i]);
-    if (given != question.given.end()) origin[i] = given - question.given.begin();
+}
+
+void PostureFinder::Parts::find_names() {
+  const symbolic::Mechanism& model = question.question.model;
+  const auto is_free = [&](const std::string& name) {
+    return model.find_coordinate(name) >= 0 && std::ranges::count(question.given, name) == 0;
+  };
+  if (six) {
+    for (const auto& angle : six->angles) names.push_back(angle.joint);
+  } else if (hand) {  // whatever else the equations with this orientation are written in
+    for (std::size_t j = 0; j < robot()->joints.size(); ++j)
+      if (robot()->is_asked_for(j) && is_free(robot()->joints[j].name)) names.push_back(robot()->joints[j].name);
+  } else {
+    for (const symbolic::Coordinate& c : model.coordinates())
+      if (!c.auxiliary && is_free(c.name)) names.push_back(c.name);
   }
 }
 
@@ -139,8 +184,18 @@ PostureFinder::PostureFinder(PostureQuestion question) {
     if (model.find_coordinate(name) < 0) throw unknown_coordinate(p.question.question, name);
     if (std::ranges::count(p.question.given, name) > 1) throw p.error("'" + name + "' has two values", "one");
   }
-  if (p.question.orientation) p.find_hand();
+  p.freedom = static_cast<int>(model.coordinates().size()) - static_cast<int>(model.equations().size()) -
+              static_cast<int>(std::ranges::count_if(model.coordinates(), symbolic::is_fixed)) -
+              static_cast<int>(p.question.given.size()) - (p.question.orientation ? 3 : 0);
+  if (p.freedom > 0)
+    throw p.error(fmt::format("these values leave {} degree{} of freedom", p.freedom, p.freedom == 1 ? "" : "s"),
+                  fmt::format("values of {} more coordinate{}", p.freedom, p.freedom == 1 ? "" : "s"));
+  if (p.question.orientation) {
+    p.find_hand();
+    p.find_position();
+  }
   if (p.is_whole_pose()) p.six = kinematics::six_joints(*p.robot(), *p.hand);
+  p.find_names();
   parts_ = std::move(parts);
 }
 
@@ -152,60 +207,60 @@ std::string PostureFinder::way() const {
   return parts_->six ? "six joints" : parts_->is_whole_pose() ? "hand held" : "coordinates held";
 }
 
+// Of the hand's frame.
+std::array<Expression, 3> PostureFinder::Parts::origin_at(const Values& values, const Rotation& orientation) const {
+  std::array<Expression, 3> origin;
+  for (std::size_t i = 0; i < 3; ++i) {
+    origin[i] = values[(*position)[i]];
+    for (std::size_t j = 0; j < 3; ++j) origin[i] = origin[i] - orientation[i][j] * point[j];
+  }
+  return origin;
+}
+
 symbolic::Mechanism PostureFinder::Parts::hand_held(const Values& values, const Rotation& orientation) const {
   kinematics::Robot held = *robot();
   std::erase_if(held.outputs, [&](const kinematics::Output& o) { return o.link == *hand; });
-  held.fix(held.links[0].name, held.links[*hand].name,
-           pose_of(orientation, {values[*origin[0]], values[*origin[1]], values[*origin[2]]}));
+  held.fix(held.links[0].name, held.links[*hand].name, pose_of(orientation, origin_at(values, orientation)));
   return kinematics::assemble(held).mechanism;
 }
 
-symbolic::Mechanism PostureFinder::Parts::coordinates_held(const Values& values,
-                                                           const std::optional<Rotation>& orientation) const {
+std::optional<symbolic::Mechanism> PostureFinder::Parts::coordinates_held(const Values& values,
+                                                                          const std::optional<Rotation>& orientation) const {
   symbolic::Mechanism model = question.question.model;
   if (orientation) {
     kinematics::Robot kept = *robot();
-    for (kinematics::Output& o : kept.outputs)
-      if (o.link == *hand) o.kept = pose_of(*orientation, {0, 0, 0});
+    kept.outputs[turned].kept = pose_of(*orientation, {0, 0, 0});
     model = kinematics::assemble(kept).mechanism;
   }
   model = symbolic::limits_as_ranges(std::move(model));
   for (std::size_t k = 0; k < values.size(); ++k) {
-    check_value(model, question.given[k], values[k]);
+    if (!is_in_range(model, question.given[k], values[k])) return std::nullopt;
     model.set_range(question.given[k], values[k], values[k]);
   }
   return model;
 }
 
-void PostureFinder::Parts::check_value(const symbolic::Mechanism& model, const std::string& name,
-                                       const Expression& value) const {
+bool PostureFinder::Parts::is_in_range(const symbolic::Mechanism& model, const std::string& name, const Expression& value) {
   const symbolic::Coordinate& c = model.coordinates()[model.find_coordinate(name)];
-  if (!c.has_range) return;
-  const auto number = [&](const Expression& e) { return symbolic::exact_value(model, e, name).enclose(); };
-  const Interval range = Interval::hull(number(c.lower), number(c.upper)), at = number(value);
+  if (!c.has_range) return true;
+  const auto number_of = [&](const Expression& e) { return symbolic::exact_value(model, e, name).enclose(); };
+  const Interval range = Interval::hull(number_of(c.lower), number_of(c.upper)), at = number_of(value);
   const double turn = 2 * std::numbers::pi;
   const bool angle = c.kind == symbolic::CoordinateKind::angle;
-  if (angle && range.width() >= turn * (1 - 1e-12)) return;
+  if (angle && range.width() >= turn * (1 - 1e-12)) return true;
   const double turns = angle ? turn * std::floor((at.mid() - range.lo()) / turn + 1e-12) : 0;
-  if (at.hi() - turns < range.lo() || at.lo() - turns > range.hi())
-    throw error(fmt::format("{} = {:.9g} is outside its range [{:.9g}, {:.9g}]", name, at.mid(), range.lo(), range.hi()),
-                "a value in it");
-}
-
-void PostureFinder::Parts::check_dimension(const System& reduced) const {
-  const int freedom = reduced.size() - static_cast<int>(reduced.equations.size());
-  if (freedom > 0)
-    throw error(fmt::format("these values leave {} degree{} of freedom", freedom, freedom == 1 ? "" : "s"),
-                fmt::format("values of {} more coordinate{}", freedom, freedom == 1 ? "" : "s"));
-  if (freedom < 0)
-    throw error(fmt::format("these values are {} more than the robot has degrees of freedom", -freedom), "fewer values");
+  return at.hi() - turns >= range.lo() && at.lo() - turns <= range.hi();
 }
 
 std::vector<CoordinateValue> PostureFinder::Parts::values_of(const System& system, const Box& box) const {
-  std::vector<CoordinateValue> all = coordinate_values(system, box);
+  const std::vector<CoordinateValue> all = coordinate_values(system, box);
   if (!six) {
-    std::erase_if(all, [&](const CoordinateValue& v) { return std::ranges::count(question.given, v.name) > 0; });
-    return all;
+    std::vector<CoordinateValue> values;
+    for (const std::string& name : names) {
+      const auto found = std::ranges::find(all, name, &CoordinateValue::name);
+      values.push_back({name, found == all.end() ? Interval::whole() : found->value});
+    }
+    return values;
   }
   std::vector<CoordinateValue> joints;
   for (const kinematics::SixJoints::Angle& angle : six->angles) {
@@ -222,16 +277,7 @@ std::vector<CoordinateValue> PostureFinder::Parts::values_of(const System& syste
   return joints;
 }
 
-std::vector<std::string> PostureFinder::names() const {
-  std::vector<std::string> names;
-  if (parts_->six) {
-    for (const auto& angle : parts_->six->angles) names.push_back(angle.joint);
-    return names;
-  }
-  for (const symbolic::Coordinate& c : parts_->question.question.model.coordinates())
-    if (!c.auxiliary && std::ranges::count(parts_->question.given, c.name) == 0) names.push_back(c.name);
-  return names;
-}
+std::vector<std::string> PostureFinder::names() const { return parts_->names; }
 
 bool PostureFinder::is_angle(const std::string& name) const {
   if (parts_->six) return true;
@@ -239,27 +285,42 @@ bool PostureFinder::is_angle(const std::string& name) const {
   return model.coordinates()[model.find_coordinate(name)].kind == symbolic::CoordinateKind::angle;
 }
 
-Postures PostureFinder::find(const std::vector<Expression>& values, const std::optional<Rotation>& orientation,
+Postures PostureFinder::find(const std::vector<Expression>& asked, const std::optional<Rotation>& turn,
                              solve::Control& control, int threads) const {
   const auto start = std::chrono::steady_clock::now();
   const Parts& p = *parts_;
-  CORANK_CHECK(values.size() == p.question.given.size() && orientation.has_value() == p.question.orientation);
+  CORANK_CHECK(asked.size() == p.question.given.size() && turn.has_value() == p.question.orientation);
+  // In numbers: a value may name the model's constants, and nothing else.
+  const auto exact = [&](const Expression& e, const std::string& name) {
+    return number(symbolic::exact_value(p.question.question.model, e, name));
+  };
+  std::vector<Expression> values;
+  for (std::size_t k = 0; k < asked.size(); ++k) values.push_back(exact(asked[k], p.question.given[k]));
+  std::optional<Rotation> orientation = turn;
+  if (orientation)
+    for (auto& row : *orientation)
+      for (Expression& e : row) e = exact(e, "the orientation");
+  Postures result;
   symbolic::Mechanism model;
   if (p.six) {
     model = p.six->mechanism;
     for (std::size_t k = 0; k < 9; ++k) model.set_constant(kinematics::kHandPose[k], (*orientation)[k / 3][k % 3]);
-    for (std::size_t i = 0; i < 3; ++i) model.set_constant(kinematics::kHandPose[9 + i], values[*p.origin[i]]);
+    const std::array<Expression, 3> origin = p.origin_at(values, *orientation);
+    for (std::size_t i = 0; i < 3; ++i) model.set_constant(kinematics::kHandPose[9 + i], origin[i]);
+  } else if (p.is_whole_pose()) {
+    model = p.hand_held(values, *orientation);
+  } else if (auto held = p.coordinates_held(values, orientation)) {
+    model = std::move(*held);
   } else {
-    model = p.is_whole_pose() ? p.hand_held(values, *orientation) : p.coordinates_held(values, orientation);
+    result.complete = true;
+    return result;
   }
   const symbolic::TrigonometricSystem equations =
       model.is_plain_system() ? symbolic::plain_system(model)
                               : symbolic::singularity_system(model, symbolic::SingularitySet::cspace);
   const System system = symbolic::algebrize(equations);
   const solve::Prepared prepared = solve::prepare(system, {.sigma = solve::kWhole, .threads = threads}, control);
-  if (prepared.reduction.consistent && !control.ended()) p.check_dimension(prepared.reduction.system);
   const Cover cover = solve::solve(prepared, control);
-  Postures result;
   result.processed = cover.statistics.processed;
   result.complete = cover.complete();
   std::map<int, PostureFamily> families;  // by their self-motion
@@ -293,7 +354,7 @@ Postures PostureFinder::find(const std::vector<Expression>& values, const std::o
     if (box.free.empty()) continue;
     PostureFamily& family = families[box.motion];
     family.dimension = static_cast<int>(box.free.size());
-    family.proven = true;
+    family.proven = family.proven || box.verdict == Verdict::regular || box.verdict == Verdict::exact;
     include_values(family, box.box);
   }
   for (auto& [motion, family] : families) result.families.push_back(std::move(family));

@@ -45,7 +45,7 @@ std::string to_table(const PostureFinder& finder, const Postures& postures) {
     }
   for (const PostureFamily& family : postures.families) {
     text += family.proven ? fmt::format("  a set of dimension {}, with\n", family.dimension)
-                          : "  not decided: a set of postures, or double ones, may be in\n";
+                          : "  not decided: a set of postures, double ones, or some at the end of a range, may be in\n";
     for (const CoordinateValue& v : family.values)
       text += fmt::format("    {} in [{:.9g}, {:.9g}]\n", v.name, v.value.lo(), v.value.hi());
   }

@@ -81,7 +81,10 @@ class Loop {
   Loop(const Robot& robot, std::size_t hand, const Bodies& bodies, std::vector<Step> chain, Algebra& algebra)
       : robot_(robot), chain_(std::move(chain)), algebra_(algebra), mechanism_(robot.name) {
     const Placement& placed = bodies.placement[hand];
-    const auto constant = [&](std::size_t k) -> ex { return algebra.constants().at(kHandPose[k]); };
+    // Symbols without a value: what is decided while equations are written is decided by the links alone.
+    std::array<ex, kHandPose.size()> pose;
+    for (std::size_t k = 0; k < pose.size(); ++k) pose[k] = algebra.coordinate(kHandPose[k]);
+    const auto constant = [&](std::size_t k) -> ex { return pose[k]; };
     const Mat rotation{{{constant(0), constant(1), constant(2)},
                         {constant(3), constant(4), constant(5)},
                         {constant(6), constant(7), constant(8)}}};
@@ -183,6 +186,7 @@ void Loop::angle_between(std::size_t k, const Vec& axis, const Vec& zero, const 
 
 SixJoints Loop::write(std::size_t k) {
   for (const symbolic::Constant& c : robot_.constants) mechanism_.constant(c.name, c.value, c.where);
+  for (const char* name : kHandPose) mechanism_.constant(name, 1);
   const std::size_t a = k, b = k + 1, c = k + 2, d = k + 3, e = k + 4, f = k + 5;
   // All in the frame of the body between d and e.
   const Turning by_d = turn(d, true), by_e = turn(e, false), by_f = turn(f, false);
@@ -228,23 +232,20 @@ std::optional<SixJoints> six_joints(const Robot& robot, std::size_t hand) {
   for (const Output& o : robot.outputs)  // a slice of the robot's motion
     if (o.kept || o.turn || std::ranges::any_of(o.ranges, [](const auto& r) { return r.has_value(); })) return std::nullopt;
   const symbolic::GinacLock lock;
-  Robot held = robot;
-  for (std::size_t k = 0; k < kHandPose.size(); ++k) {
-    const auto is_name = [&](const symbolic::Constant& c) { return c.name == kHandPose[k]; };
-    if (std::ranges::any_of(held.constants, is_name)) return std::nullopt;
-    // Any numbers that no robot has: what is decided is decided by the links alone.
-    held.constants.push_back({kHandPose[k], Expression(static_cast<int>(1009 + 2 * k * k)) / 977, {}});
+  for (const char* name : kHandPose) {
+    const auto is_name = [&](const symbolic::Constant& c) { return c.name == name; };
+    if (std::ranges::any_of(robot.constants, is_name) || robot.find_joint(name) >= 0) return std::nullopt;
   }
-  Algebra algebra(held);
-  const Bodies bodies = bodies_of(held, algebra);
-  std::vector<Step> chain = chain_to(held, bodies, bodies.of_link[hand]);
+  Algebra algebra(robot);
+  const Bodies bodies = bodies_of(robot, algebra);
+  std::vector<Step> chain = chain_to(robot, bodies, bodies.of_link[hand]);
   if (chain.empty()) return std::nullopt;
   for (const Step& step : chain)
-    if (const auto range = held.joints[step.joint->index].range())
+    if (const auto range = robot.joints[step.joint->index].range())
       if (algebra.is_zero(algebra.constant(range->upper - range->lower, {}))) return std::nullopt;
-  Loop loop(held, hand, bodies, std::move(chain), algebra);
+  Loop loop(robot, hand, bodies, std::move(chain), algebra);
   std::optional<std::size_t> best;
-  for (std::size_t k = 0; k < kJoints; ++k)
+  for (std::size_t k = 0; k + 2 < kJoints; ++k)  // both links are the arm's
     if (loop.has_skew_links(k) && (!best || loop.weight(k) < loop.weight(*best))) best = k;
   if (!best) return std::nullopt;
   return loop.write(*best);

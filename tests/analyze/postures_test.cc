@@ -313,6 +313,41 @@ TEST(Postures, OfAnArmWithASlideAreFoundToo) {
   EXPECT_EQ(found.at_most(), 4) << "two ways to reach the wrist's centre with the slide on its side, two of the wrist";
 }
 
+// The hand's pose is that of a point of the tool: the same postures, found the same way.
+TEST(Postures, OfAPointOfTheToolAreThoseOfItsFrame) {
+  const Arm& crx = arms()[2];
+  study::Model model =
+      study::parse_model({"[CONSTANTS]\nunit m\n[DH]\nstandard\na alpha d theta\n0 -90deg 0 q1\n0.71 0 0 q2\n0 -90deg 0 q3\n"
+                          "0 90deg 0.54 q4\n0 -90deg 0.15 q5\n0 0 0.16 q6\n[OUTPUTS]\nh : pose of tool (0.1, 0, 0.2)\n",
+                          "crx.cuik"});
+  const PostureFinder finder({.question = {.model = std::move(model.mechanism), .assembly = std::move(model.assembly)},
+                              .given = {"h_x", "h_y", "h_z"},
+                              .orientation = true});
+  EXPECT_EQ(finder.way(), "six joints");
+  Joints q;
+  q << 0.3, -0.5, 0.7, 0.2, 0.9, 0.4;
+  Matrix4d goal = hand(crx, q), point = Matrix4d::Identity();
+  point(0, 3) = 0.1, point(2, 3) = 0.2;
+  const Pose pose = pose_of(goal * point);
+  solve::Control control;
+  const Postures found = finder.find(pose.position, pose.orientation, control);
+  EXPECT_EQ(found.at_most(), found.at_least());
+  EXPECT_TRUE(std::ranges::any_of(found.found, [&](const Posture& p) { return distance(joints_of(p), q) < 1e-9; }));
+  for (const Posture& posture : found.found) EXPECT_LT(difference(hand(crx, joints_of(posture)), goal), 1e-9);
+}
+
+// Both elbows of a five-bar are at one place: its end goes round them, and beyond that there is one more configuration.
+TEST(Postures, ThatFormASetAreSaidSo) {
+  study::Model model = study::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik", {{"l", "1"}, {"d", "1"}});
+  const PostureFinder finder({.question = {.model = std::move(model.mechanism)}, .given = {"theta2", "theta5"}});
+  solve::Control control;
+  const Postures found = finder.find({"2*pi/3", "pi/3"}, {}, control);
+  EXPECT_FALSE(found.at_most());
+  ASSERT_EQ(found.families.size(), 1u);
+  EXPECT_TRUE(found.families[0].proven);
+  EXPECT_EQ(found.families[0].dimension, 1);
+}
+
 TEST(Postures, AreRefusedWhereTheQuestionMakesNoSense) {
   const auto fault = [](auto&& question) -> std::string {
     try {
@@ -357,7 +392,8 @@ TEST(PostureTable, ComparesSomebodyElsesSolutions) {
   EXPECT_EQ(csv, to_csv(finder, find_all(finder, rows, 1, control)));
   std::size_t all = 0;
   for (const Postures& p : found) all += p.found.size();
-  const Comparison own = compare(finder, found, parse_table(csv, "own.csv"), "own.csv", 1e-9);
+  const std::string with_none = csv + "3,0,0,,,,,,,\n";  // as of a pose without postures
+  const Comparison own = compare(finder, found, parse_table(with_none, "own.csv"), "own.csv", 1e-9);
   EXPECT_EQ(own.agreed, all);
   EXPECT_TRUE(own.missing.empty() && own.wrong.empty() && own.open.empty());
   // A solver that finds one posture of each pose, turned by a whole turn, and one that is none.
@@ -387,6 +423,11 @@ TEST(PostureTable, IsRefusedWithItsLine) {
   };
   EXPECT_THAT(fault(""), HasSubstr("t.csv:1:1: the table is empty"));
   EXPECT_THAT(fault("a,b\n1,2\n\n1\n"), HasSubstr("t.csv:4:1: 1 values under 2 names"));
+  EXPECT_THAT(fault("a,b,a\n1,2,3\n"), HasSubstr("the column 'a' occurs twice"));
+  EXPECT_EQ(fault("\xef\xbb\xbf"
+                  "a,b\n1,2\n"),
+            "none")
+      << "the mark of UTF-8";
   EXPECT_THAT(fault("a,qw\n1,2\n"), HasSubstr("the quaternion is not complete"));
   EXPECT_THAT(fault("qw,qx,qy,qz\n1,0,0,0\n0,0,0,0\n"), HasSubstr("t.csv:3:1: the quaternion"));
   EXPECT_THAT(fault("qw,qx,qy,qz\n1,0,0,z\n"), HasSubstr("t.csv:2:1: the quaternion"));

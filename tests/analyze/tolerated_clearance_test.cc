@@ -154,6 +154,20 @@ TEST(ToleranceFactor, IsZeroWhereTheRobotAsDrawnFallsShort) {
   EXPECT_THROW(tolerance_factor(question, kBall, {.radius = 0}, {}, control), symbolic::ModelError);
 }
 
+TEST(ToleranceFactor, AsksForARadiusWithinTheRangesAndACentreThatEveryRobotReaches) {
+  solve::Control control;
+  const study::Question question = robot("dextar.cuik", {{"l", "0.9±0.01"}});
+  BallOptions near = kBall;
+  near.ranges = {{"J3x", "0.45", "0.55"}, {"J3y", "0.95", "1.05"}};
+  EXPECT_THROW(tolerance_factor(question, near, {.radius = 0.1}, {}, control), symbolic::ModelError);
+  BallOptions far = kBall;  // within reach where l > 0.8246
+  far.at = {{"J3x", "1.6"}, {"J3y", "0.4"}};
+  const ToleranceFactor f = tolerance_factor(question, far, {.radius = 0.02}, {}, control);
+  EXPECT_GT(f.lower, 0);
+  EXPECT_LT(0.9 - 0.01 * f.lower, 0.9);
+  EXPECT_GT(0.9 - 0.01 * f.lower, 0.8246);
+}
+
 TEST(ToleranceFactor, SaysWhatItKnowsWhereALimitEndsIt) {
   solve::Control control({.boxes = 40});
   const ToleranceFactor f =
