@@ -44,7 +44,7 @@ ExitStatus find_out(CuspidalCommand command) {
     result::write_path(command.output, analyze::to_file(*found.finder, *found.path));
   if (command.json.say([&] { return to_json(found, question.model.name(), command.output); }))
     fmt::print("{}", result::printable(to_text(found, question.model.name())));
-  return run.control().ended() ? stopped_early(run.control()) : kDone;
+  return found.complete ? kDone : stopped_early(run.control());
 }
 
 }  // namespace

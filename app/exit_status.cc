@@ -15,8 +15,10 @@ bool warn_of_assembly(const result::Result& result) {
 }
 
 ExitStatus stopped_early(const solve::Control& control) {
+  // A part with a control of its own may have seen the time limit first.
+  const auto ending = control.ended() ? control.ending() : std::nullopt;
   fmt::print(stderr, "corank: stopped by {}; what is printed is proven, but more could have been\n",
-             to_string(*control.ending()));
+             ending ? to_string(*ending) : "a limit");
   return kIncomplete;
 }
 

@@ -54,8 +54,7 @@ ExitStatus find_postures_of_table(const PosturesCommand& command) {
   if (command.json.say([&] { return to_json(finder, found, compared); }))
     fmt::print("{}", result::printable(to_table(finder, found, compared)));
   const bool complete = std::ranges::all_of(found, [](const analyze::Postures& p) { return p.complete; });
-  if (complete) return kDone;
-  return run.control().ended() ? stopped_early(run.control()) : kIncomplete;
+  return complete ? kDone : stopped_early(run.control());
 }
 
 ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
@@ -87,8 +86,7 @@ ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
   const analyze::Postures found = finder.find(values, orientation, run.control(), command.threads);
   line.clear();
   if (command.json.say([&] { return to_json(finder, found); })) fmt::print("{}", result::printable(to_table(finder, found)));
-  if (found.complete) return kDone;
-  return run.control().ended() ? stopped_early(run.control()) : kIncomplete;
+  return found.complete ? kDone : stopped_early(run.control());
 }
 
 }  // namespace

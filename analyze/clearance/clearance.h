@@ -59,6 +59,8 @@ Clearance clearance(const study::Question& question, const BallOptions& ball, co
 
 /// A number that is no larger, no smaller, with six digits.
 std::string rounded(double x, bool up);
+/// For a terminal: a line for each, with its middle.
+std::string value_lines(const std::vector<CoordinateValue>& values);
 /// A few lines for a terminal.
 std::string to_table(const Clearance& clearance);
 /// {"model", "set", "at": {name: value}, "in": [names], "radius": {"lo", "hi" (null: none was proven)}, "nearest" (null, or

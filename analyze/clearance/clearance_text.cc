@@ -1,4 +1,4 @@
-// A clearance and the best centre, in words and as JSON.
+// A clearance, the best centre and a factor of tolerances, in words and as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "corank/analyze/clearance/best_center.h"
 #include "corank/analyze/clearance/clearance.h"
 #include "corank/analyze/clearance/json.h"
+#include "corank/analyze/clearance/tolerance_factor.h"
 
 namespace corank::analyze {
 namespace {
@@ -24,7 +25,27 @@ std::string rounded(double x, bool up) {
   return fmt::format("{:.6g}", shown);
 }
 
+std::string value_lines(const std::vector<CoordinateValue>& values) {
+  std::string text;
+  for (const CoordinateValue& v : values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+  return text;
+}
+
 namespace {
+
+std::string ball_line(const Ball& ball) {
+  std::vector<std::string> at;
+  for (const NamedValue& v : ball.center) at.push_back(fmt::format("{} = {}", v.name, v.value.text()));
+  return fmt::format("{}, {}: ball in {} about {}\n", ball.question.model.name(), ball.set_name(),
+                     fmt::join(ball.names(), ", "), fmt::join(at, ", "));
+}
+
+Json json_about(const Ball& ball) {
+  Json json = {{"model", ball.question.model.name()}, {"set", ball.set_name()}, {"at", Json::object()}};
+  for (const NamedValue& v : ball.center) json["at"][v.name] = v.value.text();
+  json["in"] = ball.names();
+  return json;
+}
 
 std::string what_of(const study::Question& q) {
   if (!q.set) return "solution";
@@ -41,10 +62,7 @@ std::string required_lines(const study::Question& q) {
 }  // namespace
 
 std::string to_table(const Clearance& c) {
-  std::vector<std::string> at;
-  for (const NamedValue& v : c.ball.center) at.push_back(fmt::format("{} = {}", v.name, v.value.text()));
-  std::string text = fmt::format("{}, {}: ball in {} about {}\n", c.ball.question.model.name(), c.ball.set_name(),
-                                 fmt::join(c.ball.names(), ", "), fmt::join(at, ", "));
+  std::string text = ball_line(c.ball);
   const Nearest& n = c.nearest;
   const std::string what = what_of(c.ball.question);
   text += required_lines(c.ball.question);
@@ -79,9 +97,9 @@ std::string to_table(const Clearance& c) {
     if (n.upper) {
       text += fmt::format("  nearest {} found, proven to exist{}:\n", what,
                           ends_first ? fmt::format(", at a distance of at most {}", hi) : "");
-      for (const CoordinateValue& v : c.values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+      text += value_lines(c.values);
       if (!c.robot.empty()) text += "  of the robot with\n";
-      for (const CoordinateValue& v : c.robot) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+      text += value_lines(c.robot);
     } else {
       text += fmt::format("  no {} is proven to exist\n", what);
     }
@@ -97,9 +115,7 @@ std::string to_table(const Clearance& c) {
 
 std::string to_json(const Clearance& c) {
   const Nearest& n = c.nearest;
-  Json json = {{"model", c.ball.question.model.name()}, {"set", c.ball.set_name()}, {"at", Json::object()}};
-  for (const NamedValue& v : c.ball.center) json["at"][v.name] = v.value.text();
-  json["in"] = c.ball.names();
+  Json json = json_about(c.ball);
   json["radius"] = {{"lo", finite(c.lower())}, {"hi", or_null(n.upper)}};
   json["nearest"] = n.upper ? ends_of(c.values) : Json();
   json["robot"] = ends_of(c.robot);
@@ -144,7 +160,7 @@ std::string to_table(const Best& b) {
     if (b.center.empty()) text += "  no centre was found\n";
     for (std::size_t k = 0; k < b.center.size(); ++k) text += fmt::format("  {} = {:.9g}\n", b.names[k], b.center[k]);
     if (!b.nearest.empty()) text += fmt::format("  {} nearest to this centre, proven to exist:\n", what);
-    for (const CoordinateValue& v : b.nearest) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
+    text += value_lines(b.nearest);
   }
   return text + fmt::format("{} cells, {} boxes processed, {:.3f} s\n", b.cells, b.processed, b.seconds);
 }
@@ -170,6 +186,42 @@ std::string to_json(const Best& b) {
   json["cells"] = b.cells;
   json["processed"] = b.processed;
   json["seconds"] = b.seconds;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string to_table(const ToleranceFactor& f) {
+  std::string text = ball_line(f.ball) + required_lines(f.ball.question);
+  text += fmt::format("every robot is to keep: clearance >= {:g}\n", f.radius);
+  if (f.upper == 0) {
+    text += "the robot as drawn does not keep it; its nearest configuration of the set, proven to exist:\n";
+  } else {
+    text += fmt::format("factor of the tolerances in [{}, {}]\n", rounded(f.lower, false),
+                        f.upper ? rounded(*f.upper, true) : "unknown");
+    text += "  it is proven that every robot keeps it within\n";
+    for (const CoordinateValue& v : f.tolerances)
+      text += fmt::format("    {} in [{:.9g}, {:.9g}]\n", v.name, v.value.lo(), v.value.hi());
+    if (!f.robot.empty()) text += "  within the upper bound there is a robot that does not keep it, proven:\n";
+    text += value_lines(f.robot);
+    if (!f.robot.empty()) text += "  its nearest configuration of the set:\n";
+  }
+  text += value_lines(f.nearest);
+  if (!f.reason.empty()) text += fmt::format("  no further: {}\n", f.reason);
+  return text + fmt::format("{} steps, {} boxes processed, {:.3f} s\n", f.steps, f.processed, f.seconds);
+}
+
+std::string to_json(const ToleranceFactor& f) {
+  Json json = json_about(f.ball);
+  json["keep"] = {{"clearance", f.radius}};
+  json["factor"] = {{"lo", f.lower}, {"hi", or_null(f.upper)}};
+  json["tolerances"] = ends_of(f.tolerances);
+  json["robot"] = ends_of(f.robot);
+  json["nearest"] = f.nearest.empty() ? Json() : ends_of(f.nearest);
+  json["complete"] = f.complete;
+  json["reason"] = or_null(f.reason);
+  json["precision"] = f.precision;
+  json["steps"] = f.steps;
+  json["processed"] = f.processed;
+  json["seconds"] = f.seconds;
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -1,13 +1,11 @@
 #include "corank/analyze/clearance/tolerance_factor.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
-#include "corank/analyze/clearance/json.h"
 #include "corank/core/exact_number.h"
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/sets/parameters.h"
@@ -139,8 +137,6 @@ class FactorSearch {
   solve::Control& control_;
 };
 
-std::string keep_text(const ToleranceFactor& f) { return fmt::format("clearance >= {:g}", f.radius); }
-
 }  // namespace
 
 ToleranceFactor tolerance_factor(const study::Question& question, const BallOptions& ball,
@@ -168,49 +164,6 @@ ToleranceFactor tolerance_factor(const study::Question& question, const BallOpti
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
-}
-
-std::string to_table(const ToleranceFactor& f) {
-  std::vector<std::string> at;
-  for (const NamedValue& v : f.ball.center) at.push_back(fmt::format("{} = {}", v.name, v.value.text()));
-  std::string text = fmt::format("{}, {}: ball in {} about {}\n", f.ball.question.model.name(), f.ball.set_name(),
-                                 fmt::join(f.ball.names(), ", "), fmt::join(at, ", "));
-  for (const std::string& r : f.ball.question.model.requirement_texts())
-    if (symbolic::definition(f.ball.question.set).of_requirements) text += fmt::format("required: {}\n", r);
-  text += fmt::format("every robot is to keep: {}\n", keep_text(f));
-  if (f.upper == 0) {
-    text += "the robot as drawn does not keep it; its nearest configuration of the set, proven to exist:\n";
-  } else {
-    text += fmt::format("factor of the tolerances in [{}, {}]\n", rounded(f.lower, false),
-                        f.upper ? rounded(*f.upper, true) : "unknown");
-    text += "  it is proven that every robot keeps it within\n";
-    for (const CoordinateValue& v : f.tolerances)
-      text += fmt::format("    {} in [{:.9g}, {:.9g}]\n", v.name, v.value.lo(), v.value.hi());
-    if (!f.robot.empty()) text += "  within the upper bound there is a robot that does not keep it, proven:\n";
-    for (const CoordinateValue& v : f.robot) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
-    if (!f.robot.empty()) text += "  its nearest configuration of the set:\n";
-  }
-  for (const CoordinateValue& v : f.nearest) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
-  if (!f.reason.empty()) text += fmt::format("  no further: {}\n", f.reason);
-  return text + fmt::format("{} steps, {} boxes processed, {:.3f} s\n", f.steps, f.processed, f.seconds);
-}
-
-std::string to_json(const ToleranceFactor& f) {
-  Json json = {{"model", f.ball.question.model.name()}, {"set", f.ball.set_name()}, {"at", Json::object()}};
-  for (const NamedValue& v : f.ball.center) json["at"][v.name] = v.value.text();
-  json["in"] = f.ball.names();
-  json["keep"] = {{"clearance", f.radius}};
-  json["factor"] = {{"lo", f.lower}, {"hi", or_null(f.upper)}};
-  json["tolerances"] = ends_of(f.tolerances);
-  json["robot"] = ends_of(f.robot);
-  json["nearest"] = f.nearest.empty() ? Json() : ends_of(f.nearest);
-  json["complete"] = f.complete;
-  json["reason"] = or_null(f.reason);
-  json["precision"] = f.precision;
-  json["steps"] = f.steps;
-  json["processed"] = f.processed;
-  json["seconds"] = f.seconds;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace corank::analyze

@@ -78,9 +78,7 @@ System fixed(const PathSpace& space, const std::vector<NamedValue>& values) {
 class PathFinder::Search {
  public:
   Search(const study::Question& question, const PathOptions& options)
-      : space_(nominal(question), options.avoid, std::max(kMostOfGraph, options.factors_up_to)),
-        options_(options),
-        planner_(space_) {
+      : space_(nominal(question), options.avoid, options.factors_up_to), options_(options), planner_(space_) {
     if (!question.model.toleranced().empty()) all_.emplace(question, options.avoid);
     builder_.emplace(space());
   }

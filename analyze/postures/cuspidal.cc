@@ -14,6 +14,7 @@
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/model/evaluate.h"
 #include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/limits.h"
 
 namespace corank::analyze {
 namespace {
@@ -37,33 +38,41 @@ const kinematics::Output* turned_output(const kinematics::Robot& robot) {
   return found == robot.outputs.end() ? nullptr : &*found;
 }
 
+// Coordinates of the model.
+std::vector<std::string> inputs_of(const study::Question& question) {
+  std::vector<std::string> names = question.model.inputs();
+  if (names.empty() && question.assembly)
+    for (const kinematics::Joint& j : question.assembly->robot->joints)
+      if (j.actuated && question.model.find_coordinate(j.name) >= 0) names.push_back(j.name);
+  return names;
+}
+
 Expression decimal(double x) { return symbolic::parse_expression(fmt::format("{:.17g}", x), "value"); }
 
 class CuspidalSearch {
  public:
   CuspidalSearch(const study::Question& question, const CuspidalOptions& options, solve::Control& control)
-      : question_(question), options_(options), control_(control) {
+      : question_(question),
+        model_(symbolic::limits_as_ranges(question.model)),
+        options_(options),
+        control_(control),
+        inputs_(inputs_of(question)) {
     const kinematics::Robot* robot = question.assembly ? question.assembly->robot.get() : nullptr;
-    result_.of = options.of.value_or(robot && is_tree(*robot) ? Avoid::inverse : Avoid::forward);
+    const bool is_arm = robot && is_tree(*robot);
+    result_.of = options.of.value_or(is_arm ? Avoid::inverse : Avoid::forward);
     if (result_.of != Avoid::inverse && result_.of != Avoid::forward)
       throw question_error(question, "a robot is cuspidal with regard to one kind of singularities", "forward or inverse");
-    result_.finder =
-        std::make_shared<PathFinder>(question, PathOptions{.avoid = result_.of,
-                                                           .threads = options.threads,
-                                                           .sampling_seconds = options.path_seconds,
-                                                           .factors_up_to = robot && is_tree(*robot) ? kMostJoints : 3});
-    const symbolic::Mechanism& model = question.model;
+    if (inputs_.empty()) throw question_error(question, "it names no inputs", "a robot with motors");
+    for (const std::string& name : inputs_) static_cast<void>(coordinate(name));
     if (result_.of == Avoid::forward) {
-      given_ = model.inputs();
+      given_ = inputs_;
     } else {
       if (robot && question.assembly->space != kinematics::Space::planar) hand_ = turned_output(*robot);
-      for (const symbolic::Coordinate& c : model.coordinates())
+      for (const symbolic::Coordinate& c : model_.coordinates())
         if (is_output(c.name)) given_.push_back(c.name);
     }
-    PostureQuestion asked{.question = question, .given = given_, .orientation = hand_ != nullptr};
-    postures_.emplace(std::move(asked));
-    if (inputs().empty()) throw question_error(question, "it names no inputs", "a robot with motors");
-    for (const std::string& name : inputs()) static_cast<void>(coordinate(name));
+    path_options_ = {.avoid = result_.of, .threads = options.threads, .sampling_seconds = options.path_seconds};
+    if (is_arm) path_options_.factors_up_to = kMostJoints;
   }
 
   Cuspidality run() {
@@ -73,6 +82,8 @@ class CuspidalSearch {
       result_.reason = why;
       return std::move(result_);
     }
+    result_.finder = std::make_shared<PathFinder>(question_, path_options_);
+    postures_.emplace(PostureQuestion{.question = question_, .given = given_, .orientation = hand_ != nullptr});
     for (int tries = 0; tries < options_.poses && !control_.ended() && !result_.cuspidal; ++tries) {
       if (options_.progress) options_.progress(result_.poses, result_.same_sign);
       try_pose();
@@ -112,29 +123,23 @@ class CuspidalSearch {
     if (std::ranges::count(question_.model.outputs(), name) > 0) return true;
     if (!question_.assembly) return false;
     for (const kinematics::Output& o : question_.assembly->robot->outputs)
-      for (const char* axis : {"_x", "_y", "_z"})
-        if (o.name + axis == name) return true;
+      if (std::ranges::count(position_names(o), name) > 0) return true;
     return false;
   }
 
   double any_value(const symbolic::Coordinate& c) {
     double lower = -std::numbers::pi, upper = std::numbers::pi;
     if (c.has_range) {
-      lower = symbolic::exact_value(question_.model, c.lower, c.name).enclose().mid();
-      upper = symbolic::exact_value(question_.model, c.upper, c.name).enclose().mid();
-    }
-    for (const symbolic::Limit& limit : question_.model.limits()) {
-      if (limit.coordinate != c.name) continue;
-      lower = symbolic::exact_value(question_.model, limit.lower, c.name).enclose().mid();
-      upper = symbolic::exact_value(question_.model, limit.upper, c.name).enclose().mid();
+      lower = symbolic::exact_value(model_, c.lower, c.name).enclose().mid();
+      upper = symbolic::exact_value(model_, c.upper, c.name).enclose().mid();
     }
     return std::round(1e6 * std::uniform_real_distribution<double>(lower, upper)(random_)) / 1e6;
   }
 
   const symbolic::Coordinate& coordinate(const std::string& name) const {
-    const int index = question_.model.find_coordinate(name);
+    const int index = model_.find_coordinate(name);
     if (index < 0) throw unknown_coordinate(question_, name);
-    const symbolic::Coordinate& c = question_.model.coordinates()[index];
+    const symbolic::Coordinate& c = model_.coordinates()[index];
     if (is_fixed(c))
       throw question_error(question_, "the range of '" + name + "' has one value, so the robot is not free to move",
                            "the whole robot");
@@ -149,7 +154,7 @@ class CuspidalSearch {
       return true;
     }
     std::vector<NamedValue> joints;
-    for (const std::string& name : inputs()) joints.push_back({name, decimal(any_value(coordinate(name)))});
+    for (const std::string& name : inputs_) joints.push_back({name, decimal(any_value(coordinate(name)))});
     std::vector<Box> boxes;
     try {
       boxes = result_.finder->ends(joints, control_);
@@ -181,15 +186,6 @@ class CuspidalSearch {
   void take(const std::string& name, double value, std::vector<Expression>& values) {
     values.push_back(symbolic::parse_expression(ExactNumber::dyadic(value).text(), name));
     result_.given.push_back({name, Interval(value)});
-  }
-
-  // Coordinates of the model.
-  std::vector<std::string> inputs() const {
-    std::vector<std::string> names = question_.model.inputs();
-    if (names.empty() && question_.assembly)
-      for (const kinematics::Joint& j : question_.assembly->robot->joints)
-        if (j.actuated && question_.model.find_coordinate(j.name) >= 0) names.push_back(j.name);
-    return names;
   }
 
   void try_pose() {
@@ -237,7 +233,7 @@ class CuspidalSearch {
     const auto add = [&](const CoordinateValue& v) {
       if (v.value.width() < kNear) at.push_back({v.name, decimal(v.value.mid())});
     };
-    const std::vector<std::string> own = result_.of == Avoid::inverse ? inputs() : question_.model.outputs();
+    const std::vector<std::string> own = result_.of == Avoid::inverse ? inputs_ : question_.model.outputs();
     for (const CoordinateValue& v : posture.values)
       if (std::ranges::count(own, v.name) > 0) add(v);
     if (result_.of == Avoid::forward)
@@ -261,8 +257,11 @@ class CuspidalSearch {
   }
 
   const study::Question& question_;
+  const symbolic::Mechanism model_;  // its limits are ranges
   const CuspidalOptions& options_;
   solve::Control& control_;
+  const std::vector<std::string> inputs_;
+  PathOptions path_options_;
   Cuspidality result_;
   const kinematics::Output* hand_ = nullptr;
   std::vector<std::string> given_;
@@ -270,12 +269,6 @@ class CuspidalSearch {
   std::size_t compared_ = 0, not_compared_ = 0;  // pairs of postures
   std::mt19937 random_{2022};
 };
-
-std::string values_text(const std::vector<CoordinateValue>& values) {
-  std::string text;
-  for (const CoordinateValue& v : values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
-  return text;
-}
 
 }  // namespace
 
@@ -294,11 +287,11 @@ std::string to_text(const Cuspidality& c, const std::string& model) {
     text += fmt::format("open whether it is cuspidal: {}\n", c.reason);
     return text + fmt::format("{} poses tried, at most {} postures, {:.1f} s\n", c.poses, c.most, c.seconds);
   }
-  text += fmt::format("cuspidal, proven: two postures joined without {}\n  at\n", in_words(c.of)) + values_text(c.given);
+  text += fmt::format("cuspidal, proven: two postures joined without {}\n  at\n", in_words(c.of)) + value_lines(c.given);
   if (const auto& q = c.quaternion)
     text +=
         fmt::format("    orientation, a quaternion: {:.9g}, {:.9g}, {:.9g}, {:.9g}\n", (*q)[0], (*q)[1], (*q)[2], (*q)[3]);
-  text += "  from\n" + values_text(c.from) + "  to\n" + values_text(c.to);
+  text += "  from\n" + value_lines(c.from) + "  to\n" + value_lines(c.to);
   return text + fmt::format("  path of {} pieces, radius {:.3g}\n{} poses tried, {:.1f} s\n", c.path->tube->pieces.size(),
                             c.path->tube->radius(), c.poses, c.seconds);
 }

@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <mutex>
 #include <numbers>
 #include <sstream>
 
-#include "corank/analyze/clearance/json.h"
 #include "corank/core/check.h"
 #include "corank/core/threads.h"
 #include "corank/symbolic/model/model_file.h"
@@ -21,8 +19,6 @@ namespace {
 
 using symbolic::Expression;
 using symbolic::ModelError;
-
-constexpr std::size_t kShown = 5;  // differences in a table
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
@@ -52,29 +48,6 @@ bool is_near(double value, const Interval& at, bool is_angle, double tolerance) 
   double d = value - at.mid();
   if (is_angle) d = std::remainder(d, 2 * std::numbers::pi);
   return std::fabs(d) <= tolerance + at.width() / 2;
-}
-
-Json differences(const PostureFinder& finder, const std::vector<Comparison::Difference>& list) {
-  Json json = Json::array();
-  const std::vector<std::string> names = finder.names();
-  for (const Comparison::Difference& d : list) {
-    Json values = Json::object();
-    for (std::size_t k = 0; k < names.size(); ++k) values[names[k]] = d.values[k];
-    json.push_back({{"pose", d.pose + 1}, {"values", values}});
-  }
-  return json;
-}
-
-std::string lines_of(const char* what, const PostureFinder& finder, const std::vector<Comparison::Difference>& list) {
-  std::string text = fmt::format("  {:<9}{}\n", what, list.size());
-  const std::vector<std::string> names = finder.names();
-  for (std::size_t k = 0; k < std::min(list.size(), kShown); ++k) {
-    text += fmt::format("    pose {}:", list[k].pose + 1);
-    for (std::size_t j = 0; j < names.size(); ++j) text += fmt::format(" {} = {:.9g}", names[j], list[k].values[j]);
-    text += "\n";
-  }
-  if (list.size() > kShown) text += fmt::format("    … and {} more\n", list.size() - kShown);
-  return text;
 }
 
 }  // namespace
@@ -208,63 +181,6 @@ Comparison compare(const PostureFinder& finder, const std::vector<Postures>& pro
       for (const CoordinateValue& v : proven[p].found[k].values) lost.values.push_back(v.value.mid());
     }
   return result;
-}
-
-std::string to_csv(const PostureFinder& finder, const std::vector<Postures>& postures) {
-  std::string text = fmt::format("pose,at_least,at_most,posture,{}\n", fmt::join(finder.names(), ","));
-  for (std::size_t p = 0; p < postures.size(); ++p) {
-    const auto most = postures[p].at_most();
-    const std::string start = fmt::format("{},{},{},", p + 1, postures[p].at_least(), most ? std::to_string(*most) : "");
-    if (postures[p].found.empty()) text += start + std::string(finder.names().size(), ',') + "\n";
-    for (std::size_t k = 0; k < postures[p].found.size(); ++k) {
-      text += start + std::to_string(k + 1);
-      for (const CoordinateValue& v : postures[p].found[k].values) text += fmt::format(",{:.17g}", v.value.mid());
-      text += "\n";
-    }
-  }
-  return text;
-}
-
-std::string to_json(const PostureFinder& finder, const std::vector<Postures>& postures, const Comparison* comparison) {
-  Json json = {{"model", finder.question().question.model.name()}, {"given", finder.question().given}};
-  json["poses"] = Json::array();
-  for (const Postures& p : postures) {
-    Json one = Json::parse(to_json(finder, p));
-    one.erase("model");
-    one.erase("given");
-    json["poses"].push_back(std::move(one));
-  }
-  if (comparison)
-    json["against"] = {{"agreed", comparison->agreed},
-                       {"missing", differences(finder, comparison->missing)},
-                       {"wrong", differences(finder, comparison->wrong)},
-                       {"open", differences(finder, comparison->open)}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::string to_table(const PostureFinder& finder, const std::vector<Postures>& postures, const Comparison* comparison) {
-  std::string text = fmt::format("{}: {} pose{}\n", finder.question().question.model.name(), postures.size(),
-                                 postures.size() == 1 ? "" : "s");
-  std::map<int, std::size_t> exactly;
-  std::size_t open = 0;
-  for (const Postures& p : postures) {
-    const auto most = p.at_most();
-    if (most && *most == p.at_least())
-      ++exactly[*most];
-    else
-      ++open;
-  }
-  for (const auto& [count, poses] : exactly)
-    text += fmt::format("  {:>2} posture{:<2} {} pose{}, proven to be all\n", count, count == 1 ? "" : "s", poses,
-                        poses == 1 ? "" : "s");
-  if (open > 0)
-    text += fmt::format("  not known    {} pose{}: bounds only, or sets of postures\n", open, open == 1 ? "" : "s");
-  if (!comparison) return text;
-  text += "compared with the others:\n";
-  text += fmt::format("  {:<9}{}\n", "agreed", comparison->agreed);
-  text += lines_of("missing", finder, comparison->missing);
-  text += lines_of("wrong", finder, comparison->wrong);
-  return text + lines_of("open", finder, comparison->open);
 }
 
 }  // namespace corank::analyze

@@ -27,7 +27,6 @@ using symbolic::ModelError;
 
 constexpr double kFine = 1e-10;  // σ of a posture: what follows from it is to have many digits
 constexpr std::uint64_t kMostToNarrow = 10'000;
-constexpr const char* kAxes[] = {"_x", "_y", "_z"};
 
 Expression number(const ExactNumber& x) { return symbolic::parse_expression(x.text(), "number"); }
 
@@ -54,7 +53,17 @@ std::vector<CoverBox> narrowed(solve::Prepared prepared, const std::vector<Cover
 
 Interval whole_turn() { return {-std::numbers::pi, std::nextafter(std::numbers::pi, 4.0)}; }
 
+Interval range_of(const symbolic::Mechanism& model, const std::string& name, const Expression& lower,
+                  const Expression& upper) {
+  return Interval::hull(symbolic::exact_value(model, lower, name).enclose(),
+                        symbolic::exact_value(model, upper, name).enclose());
+}
+
 }  // namespace
+
+std::array<std::string, 3> position_names(const kinematics::Output& output) {
+  return {output.name + "_x", output.name + "_y", output.name + "_z"};
+}
 
 Rotation rotation_of(const std::array<ExactNumber, 4>& q) {
   const auto& [w, x, y, z] = q;
@@ -81,7 +90,7 @@ struct PostureFinder::Parts {
   std::size_t turned = 0;           // the output that has it
   // Of an output of the hand: the components of its position among the given coordinates, and its point in the hand's frame.
   std::optional<std::array<std::size_t, 3>> position;
-  std::array<Expression, 3> point{0, 0, 0};
+  std::array<Expression, 3> hand_point{0, 0, 0};
   std::optional<kinematics::SixJoints> six;
   std::vector<std::string> names;
   int freedom = 0;  // by the numbers of coordinates, equations and values
@@ -103,7 +112,11 @@ struct PostureFinder::Parts {
   /// Nothing where a value is outside its range.
   std::optional<symbolic::Mechanism> coordinates_held(const Values& values,
                                                       const std::optional<Rotation>& orientation) const;
+  /// With these values. Nothing where one is outside its range.
+  std::optional<symbolic::Mechanism> model_at(const Values& asked, const std::optional<Rotation>& turn) const;
   std::vector<CoordinateValue> values_of(const System& system, const Box& box) const;
+  void include(const System& system, const Box& box, PostureFamily& family) const;
+  void take(const solve::Prepared& prepared, const Cover& cover, const solve::Control& control, Postures& result) const;
   static bool is_in_range(const symbolic::Mechanism& model, const std::string& name, const Expression& value);
 };
 
@@ -144,16 +157,17 @@ void PostureFinder::Parts::find_position() {
   for (const kinematics::Output& o : robot()->outputs) {
     using Kind = kinematics::Output::Kind;
     if (o.link != *hand || o.relative_to != 0 || (o.kind != Kind::pose && o.kind != Kind::position)) continue;
+    const std::array<std::string, 3> names_of_it = position_names(o);
     std::array<std::size_t, 3> found{};
     bool all = true;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto given = std::ranges::find(question.given, o.name + kAxes[i]);
+      const auto given = std::ranges::find(question.given, names_of_it[i]);
       all = all && given != question.given.end();
       found[i] = given - question.given.begin();
     }
     if (!all) continue;
     position = found;
-    point = o.point;
+    hand_point = o.point;
     return;
   }
 }
@@ -212,7 +226,7 @@ std::array<Expression, 3> PostureFinder::Parts::origin_at(const Values& values, 
   std::array<Expression, 3> origin;
   for (std::size_t i = 0; i < 3; ++i) {
     origin[i] = values[(*position)[i]];
-    for (std::size_t j = 0; j < 3; ++j) origin[i] = origin[i] - orientation[i][j] * point[j];
+    for (std::size_t j = 0; j < 3; ++j) origin[i] = origin[i] - orientation[i][j] * hand_point[j];
   }
   return origin;
 }
@@ -243,8 +257,7 @@ std::optional<symbolic::Mechanism> PostureFinder::Parts::coordinates_held(const 
 bool PostureFinder::Parts::is_in_range(const symbolic::Mechanism& model, const std::string& name, const Expression& value) {
   const symbolic::Coordinate& c = model.coordinates()[model.find_coordinate(name)];
   if (!c.has_range) return true;
-  const auto number_of = [&](const Expression& e) { return symbolic::exact_value(model, e, name).enclose(); };
-  const Interval range = Interval::hull(number_of(c.lower), number_of(c.upper)), at = number_of(value);
+  const Interval range = range_of(model, name, c.lower, c.upper), at = symbolic::exact_value(model, value, name).enclose();
   const double turn = 2 * std::numbers::pi;
   const bool angle = c.kind == symbolic::CoordinateKind::angle;
   if (angle && range.width() >= turn * (1 - 1e-12)) return true;
@@ -268,9 +281,8 @@ std::vector<CoordinateValue> PostureFinder::Parts::values_of(const System& syste
       joints.push_back(*std::ranges::find(all, angle.coordinate, &CoordinateValue::name));
       continue;
     }
-    Interval range = whole_turn();
-    const auto value = [&](const Expression& e) { return symbolic::exact_value(six->mechanism, e, angle.joint).enclose(); };
-    if (angle.range) range = Interval::hull(value(angle.range->lower), value(angle.range->upper));
+    const Interval range =
+        angle.range ? range_of(six->mechanism, angle.joint, angle.range->lower, angle.range->upper) : whole_turn();
     joints.push_back(
         {angle.joint, certify::angle_enclosure(box[system.find(angle.cosine)], box[system.find(angle.sine)], range)});
   }
@@ -285,86 +297,92 @@ bool PostureFinder::is_angle(const std::string& name) const {
   return model.coordinates()[model.find_coordinate(name)].kind == symbolic::CoordinateKind::angle;
 }
 
-Postures PostureFinder::find(const std::vector<Expression>& asked, const std::optional<Rotation>& turn,
-                             solve::Control& control, int threads) const {
-  const auto start = std::chrono::steady_clock::now();
-  const Parts& p = *parts_;
-  CORANK_CHECK(asked.size() == p.question.given.size() && turn.has_value() == p.question.orientation);
+std::optional<symbolic::Mechanism> PostureFinder::Parts::model_at(const Values& asked,
+                                                                  const std::optional<Rotation>& turn) const {
   // In numbers: a value may name the model's constants, and nothing else.
   const auto exact = [&](const Expression& e, const std::string& name) {
-    return number(symbolic::exact_value(p.question.question.model, e, name));
+    return number(symbolic::exact_value(question.question.model, e, name));
   };
-  std::vector<Expression> values;
-  for (std::size_t k = 0; k < asked.size(); ++k) values.push_back(exact(asked[k], p.question.given[k]));
+  Values values;
+  for (std::size_t k = 0; k < asked.size(); ++k) values.push_back(exact(asked[k], question.given[k]));
   std::optional<Rotation> orientation = turn;
   if (orientation)
     for (auto& row : *orientation)
       for (Expression& e : row) e = exact(e, "the orientation");
-  Postures result;
-  symbolic::Mechanism model;
-  if (p.six) {
-    model = p.six->mechanism;
-    for (std::size_t k = 0; k < 9; ++k) model.set_constant(kinematics::kHandPose[k], (*orientation)[k / 3][k % 3]);
-    const std::array<Expression, 3> origin = p.origin_at(values, *orientation);
-    for (std::size_t i = 0; i < 3; ++i) model.set_constant(kinematics::kHandPose[9 + i], origin[i]);
-  } else if (p.is_whole_pose()) {
-    model = p.hand_held(values, *orientation);
-  } else if (auto held = p.coordinates_held(values, orientation)) {
-    model = std::move(*held);
-  } else {
-    result.complete = true;
-    return result;
-  }
-  const symbolic::TrigonometricSystem equations =
-      model.is_plain_system() ? symbolic::plain_system(model)
-                              : symbolic::singularity_system(model, symbolic::SingularitySet::cspace);
-  const System system = symbolic::algebrize(equations);
-  const solve::Prepared prepared = solve::prepare(system, {.sigma = solve::kWhole, .threads = threads}, control);
-  const Cover cover = solve::solve(prepared, control);
-  result.processed = cover.statistics.processed;
-  result.complete = cover.complete();
-  std::map<int, PostureFamily> families;  // by their self-motion
-  const auto include_values = [&](PostureFamily& family, const Box& box) {
-    std::vector<CoordinateValue> at = p.values_of(system, box);
-    if (family.values.empty()) family.values = at;
-    for (std::size_t k = 0; k < at.size(); ++k) family.values[k].value = Interval::hull(family.values[k].value, at[k].value);
-  };
+  if (!is_whole_pose()) return coordinates_held(values, orientation);
+  if (!six) return hand_held(values, *orientation);
+  symbolic::Mechanism model = six->mechanism;
+  const std::array<Expression, 3> origin = origin_at(values, *orientation);
+  for (std::size_t k = 0; k < 9; ++k) model.set_constant(kinematics::kHandPose[k], (*orientation)[k / 3][k % 3]);
+  for (std::size_t i = 0; i < 3; ++i) model.set_constant(kinematics::kHandPose[9 + i], origin[i]);
+  return model;
+}
+
+void PostureFinder::Parts::include(const System& system, const Box& box, PostureFamily& family) const {
+  const std::vector<CoordinateValue> at = values_of(system, box);
+  if (family.values.empty()) family.values = at;
+  for (std::size_t k = 0; k < at.size(); ++k) family.values[k].value = Interval::hull(family.values[k].value, at[k].value);
+}
+
+void PostureFinder::Parts::take(const solve::Prepared& prepared, const Cover& cover, const solve::Control& control,
+                                Postures& result) const {
+  const System& system = prepared.system;
   std::vector<CoverBox> isolated;
   for (const CoverBox& point : cover.points) {
     if (point.verdict == Verdict::isolated) {
       isolated.push_back(point);
     } else if (point.verdict == Verdict::exact || point.verdict == Verdict::boundary) {
-      result.found.push_back({p.values_of(system, point.box), point.verdict == Verdict::exact});
+      result.found.push_back({values_of(system, point.box), point.verdict == Verdict::exact});
     } else {
-      include_values(result.families.emplace_back(), point.box);
+      include(system, point.box, result.families.emplace_back());
     }
   }
-  for (const CoverBox& point : narrowed(prepared, isolated, control))
-    result.found.push_back({p.values_of(system, point.box)});
+  for (const CoverBox& point : narrowed(prepared, isolated, control)) result.found.push_back({values_of(system, point.box)});
+  std::ranges::sort(result.found, {}, [](const Posture& posture) {
+    std::vector<double> middle;
+    for (const CoordinateValue& v : posture.values) middle.push_back(v.value.mid());
+    return middle;
+  });
   // Undecided boxes along a set are no points.
   const bool in_points =
       std::ranges::any_of(cover.points, [](const CoverBox& point) { return point.verdict == Verdict::undecided; });
+  std::map<int, PostureFamily> families;  // by their self-motion
   std::optional<PostureFamily> undecided;
   for (const CoverBox& box : cover.boxes) {
-    if (box.verdict == Verdict::pending) result.complete = false;
     if (!in_points && (box.verdict == Verdict::undecided || box.verdict == Verdict::partial)) {
       if (!undecided) undecided.emplace().dimension = cover.observed_dimension;
-      include_values(*undecided, box.box);
+      include(system, box.box, *undecided);
     }
     if (box.free.empty()) continue;
     PostureFamily& family = families[box.motion];
     family.dimension = static_cast<int>(box.free.size());
     family.proven = family.proven || box.verdict == Verdict::regular || box.verdict == Verdict::exact;
-    include_values(family, box.box);
+    include(system, box.box, family);
   }
   for (auto& [motion, family] : families) result.families.push_back(std::move(family));
   if (undecided) result.families.push_back(std::move(*undecided));
-  const auto key = [](const Posture& posture) {
-    std::vector<double> middle;
-    for (const CoordinateValue& v : posture.values) middle.push_back(v.value.mid());
-    return middle;
-  };
-  std::ranges::sort(result.found, [&](const Posture& a, const Posture& b) { return key(a) < key(b); });
+}
+
+Postures PostureFinder::find(const std::vector<Expression>& values, const std::optional<Rotation>& orientation,
+                             solve::Control& control, int threads) const {
+  const auto start = std::chrono::steady_clock::now();
+  const Parts& p = *parts_;
+  CORANK_CHECK(values.size() == p.question.given.size() && orientation.has_value() == p.question.orientation);
+  Postures result;
+  const std::optional<symbolic::Mechanism> model = p.model_at(values, orientation);
+  if (!model) {  // a value is outside its range
+    result.complete = true;
+    return result;
+  }
+  const symbolic::TrigonometricSystem equations =
+      model->is_plain_system() ? symbolic::plain_system(*model)
+                               : symbolic::singularity_system(*model, symbolic::SingularitySet::cspace);
+  const solve::Prepared prepared =
+      solve::prepare(symbolic::algebrize(equations), {.sigma = solve::kWhole, .threads = threads}, control);
+  const Cover cover = solve::solve(prepared, control);
+  result.processed = cover.statistics.processed;
+  result.complete = cover.complete();
+  p.take(prepared, cover, control, result);
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

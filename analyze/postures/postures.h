@@ -31,6 +31,9 @@ struct PostureQuestion {
 /// Rotation by a quaternion that is not 0, w + xi + yj + zk, of any length. Exact.
 Rotation rotation_of(const std::array<ExactNumber, 4>& quaternion);
 
+/// Of the coordinates of an output's position, those that there are among them.
+std::array<std::string, 3> position_names(const kinematics::Output& output);
+
 struct Posture {
   std::vector<CoordinateValue> values;  ///< of the robot's joints and coordinates; an angle in radians, within its range
   /// It is a configuration; false: it solves the equations, but is so near an end of a range that it may be beyond.
@@ -60,8 +63,8 @@ struct Postures {
 /// Made once for many values.
 class PostureFinder {
  public:
-  /// Throws ModelError where a name is none, the orientation's link is not clear, or the values do not leave as many
-  /// equations as unknowns.
+  /// Throws ModelError where a name is unknown, the orientation's link is not clear, or the values leave more unknowns
+  /// than equations.
   explicit PostureFinder(PostureQuestion question);
   ~PostureFinder();
   PostureFinder(PostureFinder&&) noexcept;

@@ -8,8 +8,6 @@
 namespace corank::kinematics {
 namespace {
 
-using symbolic::CoordinateKind;
-
 constexpr std::size_t kJoints = 6;
 
 // A joint of the chain, from the near body to the far one, which is farther from the ground.
@@ -84,13 +82,10 @@ class Loop {
     // Symbols without a value: what is decided while equations are written is decided by the links alone.
     std::array<ex, kHandPose.size()> pose;
     for (std::size_t k = 0; k < pose.size(); ++k) pose[k] = algebra.coordinate(kHandPose[k]);
-    const auto constant = [&](std::size_t k) -> ex { return pose[k]; };
-    const Mat rotation{{{constant(0), constant(1), constant(2)},
-                        {constant(3), constant(4), constant(5)},
-                        {constant(6), constant(7), constant(8)}}};
+    const Mat rotation{{{pose[0], pose[1], pose[2]}, {pose[3], pose[4], pose[5]}, {pose[6], pose[7], pose[8]}}};
     const Mat in_hand = transpose(placed.rotation);
     const BodyEnd& own = chain_.back().end(true);
-    held_ = {0, rotation * (in_hand * (own.point - placed.translation)) + Vec{constant(9), constant(10), constant(11)},
+    held_ = {0, rotation * (in_hand * (own.point - placed.translation)) + Vec{pose[9], pose[10], pose[11]},
              rotation * (in_hand * own.axis), rotation * (in_hand * own.zero)};
   }
 
@@ -99,7 +94,7 @@ class Loop {
     return !algebra_.are_parallel(far(k).axis, near(k + 1).axis) &&
            !algebra_.are_parallel(far(k + 1).axis, near(k + 2).axis);
   }
-  /// How many of the links's coefficients are not 0: the fewer, the simpler its equations.
+  /// How many of the links' coefficients are not 0: the fewer, the simpler its equations.
   int weight(std::size_t k) const {
     int weight = 0;
     for (const std::size_t j : {k, k + 1}) {

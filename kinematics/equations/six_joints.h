@@ -50,7 +50,7 @@ enum class SignedArm {
   spherical_wrist,     ///< axes 4, 5 and 6 meet in a point, 1 ⟂ 2, 2 ∥ 3
   three_parallel_axes  ///< 2 ∥ 3 ∥ 4, 1 ⟂ 2, 4 ⟂ 5, axes 5 and 6 meet
 };
-/// Nothing where the robot is none of these, or it is not known. Throws ModelError where it is faulty.
+/// Nothing for other robots, or if it is not known. Throws ModelError where the robot is faulty.
 std::optional<SignedArm> signed_arm(const Robot& robot, std::size_t hand);
 
 }  // namespace corank::kinematics

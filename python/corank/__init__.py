@@ -20,8 +20,6 @@ from .analyses import (
     Clearance,
     ClearanceMap,
     Cusp,
-    Cuspidality,
-    Postures,
     ToleranceFactor,
     Topology,
 )
@@ -34,6 +32,7 @@ from .pages import USUAL_SETS, Report
 from .pathing import Path
 from .plotting import plot
 from .point import Interval, Point
+from .posturing import Cuspidality, Postures
 from .result import Angle, Result, Sigma, Verification
 from .result import open_result as open
 from .sweeping import Member, Sweep

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Union
 
-from . import _corank, analyses, mapping, notebook, pages, pathing, result, sweeping
+from . import _corank, analyses, mapping, notebook, pages, pathing, posturing, result, sweeping
 from ._corank import Expression
 from .errors import deliver
 from .expression import ExpressionLike, RelationLike, as_expression, as_relation, constant_text, pi
@@ -335,8 +335,8 @@ class Mechanism:
 
     clearance = analyses.clearance
     tolerance_factor = analyses.tolerance_factor
-    postures = analyses.postures
-    cuspidal = analyses.cuspidal
+    postures = posturing.postures
+    cuspidal = posturing.cuspidal
     best_center = analyses.best_center
     clearance_map = analyses.clearance_map
     area = analyses.area

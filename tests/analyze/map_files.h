@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "corank/analyze/maps/parameter_map.h"
 #include "corank/study/model.h"
@@ -26,6 +27,16 @@ inline study::Question question_of(const std::string& text) {
 inline study::Question model_question(const std::string& file, symbolic::SingularitySet set) {
   study::Model model = study::read_model(std::string(CORANK_SOURCE_DIR) + "/models/" + file);
   return {.model = std::move(model.mechanism), .set = set};
+}
+
+/// Why there is no such map; "none": there is one.
+inline std::string refusal_of(MapQuestion question) {
+  try {
+    ParameterMapper(std::move(question), {});
+  } catch (const symbolic::ModelError& error) {
+    return error.what();
+  }
+  return "none";
 }
 
 inline constexpr const char* kCubic = R"([CONSTANTS]

@@ -1,99 +1,22 @@
 // All postures of arms from data sheets, against forward kinematics and Newton's method of their own; counts that are known;
-// poses with infinitely many postures; tables.
+// poses with infinitely many postures.
 #include "corank/analyze/postures/postures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <random>
 #include <set>
 
-#include "corank/analyze/postures/posture_table.h"
 #include "corank/study/model.h"
+#include "corank/tests/analyze/data_sheet_arms.h"
 #include "corank/tests/seeds.h"
 
 namespace corank::analyze {
 namespace {
 
-using Eigen::Matrix4d;
-using Eigen::Vector3d;
-using Joints = Eigen::Matrix<double, 6, 1>;
 using ::testing::HasSubstr;
-
-struct Row {
-  double a, alpha, d;  // degrees
-};
-struct Arm {
-  const char* name;
-  std::array<Row, 6> rows;
-  int most;  // postures
-};
-
-// Data sheets: UR5 (Universal Robots), PUMA 560 (Corke 1994), CRX-10iA/L and GoFa 5 as in the literature on cuspidal robots.
-const std::vector<Arm>& arms() {
-  static const std::vector<Arm> list{
-      {"ur5",
-       {{{0, 90, 0.089159}, {-0.425, 0, 0}, {-0.39225, 0, 0}, {0, 90, 0.10915}, {0, -90, 0.09465}, {0, 0, 0.0823}}},
-       8},
-      {"puma", {{{0, 90, 0}, {0.4318, 0, 0}, {0.0203, -90, 0.15005}, {0, 90, 0.4318}, {0, -90, 0}, {0, 0, 0}}}, 8},
-      {"crx", {{{0, -90, 0}, {0.71, 0, 0}, {0, -90, 0}, {0, 90, 0.54}, {0, -90, 0.15}, {0, 0, 0.16}}}, 16},
-      {"gofa", {{{0, 90, 0.265}, {0.444, 0, 0}, {0.11, -90, 0}, {0, 90, 0.47}, {0.08, -90, 0}, {0, 0, 0.101}}}, 16},
-  };
-  return list;
-}
-
-study::Question arm_question(const Arm& arm, const std::string& after_each = "") {
-  std::string text = "[CONSTANTS]\nunit m\n[DH]\nstandard\na alpha d theta\n";
-  for (std::size_t k = 0; k < 6; ++k)
-    text += std::to_string(arm.rows[k].a) + " " + std::to_string(static_cast<int>(arm.rows[k].alpha)) + "deg " +
-            std::to_string(arm.rows[k].d) + " q" + std::to_string(k + 1) + " " + after_each + "\n";
-  study::Model model = study::parse_model({text, std::string(arm.name) + ".cuik"});
-  return {.model = std::move(model.mechanism), .assembly = std::move(model.assembly)};
-}
-
-Matrix4d hand(const Arm& arm, const Joints& q) {
-  Matrix4d t = Matrix4d::Identity();
-  for (std::size_t k = 0; k < 6; ++k) {
-    const auto& [a, alpha, d] = arm.rows[k];
-    Eigen::Affine3d step = Eigen::Affine3d::Identity();
-    step.rotate(Eigen::AngleAxisd(q[static_cast<int>(k)], Vector3d::UnitZ()));
-    step.translate(Vector3d(0, 0, d));
-    step.translate(Vector3d(a, 0, 0));
-    step.rotate(Eigen::AngleAxisd(alpha * M_PI / 180, Vector3d::UnitX()));
-    t = t * step.matrix();
-  }
-  return t;
-}
-
-double difference(const Matrix4d& a, const Matrix4d& b) { return (a - b).cwiseAbs().maxCoeff(); }
-double distance(const Joints& a, const Joints& b) {
-  double most = 0;
-  for (int k = 0; k < 6; ++k) most = std::max(most, std::fabs(std::remainder(a[k] - b[k], 2 * M_PI)));
-  return most;
-}
-
-struct Pose {
-  std::vector<symbolic::Expression> position;
-  Rotation orientation;
-};
-symbolic::Expression exact(double x) { return symbolic::Expression(ExactNumber::dyadic(x).text()); }
-Pose pose_of(const Matrix4d& t) {
-  const Eigen::Quaterniond q(Eigen::Matrix3d(t.topLeftCorner<3, 3>()));
-  return {{exact(t(0, 3)), exact(t(1, 3)), exact(t(2, 3))},
-          rotation_of({ExactNumber::dyadic(q.w()), ExactNumber::dyadic(q.x()), ExactNumber::dyadic(q.y()),
-                       ExactNumber::dyadic(q.z())})};
-}
-
-PostureFinder finder_of(const study::Question& question) {
-  return PostureFinder({.question = question, .given = {"tool_x", "tool_y", "tool_z"}, .orientation = true});
-}
-Joints joints_of(const Posture& posture) {
-  Joints q;
-  for (int k = 0; k < 6; ++k) q[k] = posture.values.at(static_cast<std::size_t>(k)).value.mid();
-  return q;
-}
 
 // Newton's method with numeric derivatives; nothing where it does not end in a posture.
 std::optional<Joints> newton(const Arm& arm, const Matrix4d& goal, Joints q) {
@@ -365,73 +288,6 @@ TEST(Postures, AreRefusedWhereTheQuestionMakesNoSense) {
   EXPECT_THAT(fault([&] { PostureFinder({.question = {.model = five_bar.mechanism}, .given = {}, .orientation = true}); }),
               HasSubstr("which orientation is meant"));
   EXPECT_THROW(rotation_of({0, 0, 0, 0}), std::invalid_argument);
-}
-
-TEST(PostureTable, ComparesSomebodyElsesSolutions) {
-  const Arm& ur5 = arms()[0];
-  std::mt19937 random(8);
-  std::uniform_real_distribution<double> angle(-M_PI, M_PI);
-  std::string poses = "tool_x, tool_y, tool_z, qw, qx, qy, qz\n% three of them\n";
-  std::vector<Joints> made_by;
-  for (int n = 0; n < 3; ++n) {
-    made_by.push_back(Joints::NullaryExpr([&] { return angle(random); }));
-    const Matrix4d t = hand(ur5, made_by.back());
-    const Eigen::Quaterniond q(Eigen::Matrix3d(t.topLeftCorner<3, 3>()));
-    char line[400];
-    std::snprintf(line, sizeof line, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", t(0, 3), t(1, 3), t(2, 3), q.w(), q.x(),
-                  q.y(), q.z());
-    poses += line;
-  }
-  const Table table = parse_table(poses, "poses.csv");
-  const PostureFinder finder(question_of(table, arm_question(ur5), ""));
-  const std::vector<PoseRow> rows = rows_of(table, "poses.csv");
-  solve::Control control;
-  const std::vector<Postures> found = find_all(finder, rows, 2, control);
-  ASSERT_EQ(found.size(), 3u);
-  const std::string csv = to_csv(finder, found);
-  EXPECT_EQ(csv, to_csv(finder, find_all(finder, rows, 1, control)));
-  std::size_t all = 0;
-  for (const Postures& p : found) all += p.found.size();
-  const std::string with_none = csv + "3,0,0,,,,,,,\n";  // as of a pose without postures
-  const Comparison own = compare(finder, found, parse_table(with_none, "own.csv"), "own.csv", 1e-9);
-  EXPECT_EQ(own.agreed, all);
-  EXPECT_TRUE(own.missing.empty() && own.wrong.empty() && own.open.empty());
-  // A solver that finds one posture of each pose, turned by a whole turn, and one that is none.
-  std::string others = "pose,q1,q2,q3,q4,q5,q6\n";
-  for (int n = 0; n < 3; ++n)
-    for (const double off : {0.0, 0.01}) {
-      others += std::to_string(n + 1);
-      for (int k = 0; k < 6; ++k) others += "," + std::to_string(made_by[n][k] + (k == 1 ? 2 * M_PI : 0) + off);
-      others += "\n";
-    }
-  const Comparison other = compare(finder, found, parse_table(others, "others.csv"), "others.csv", 1e-5);
-  EXPECT_EQ(other.agreed, 3u);
-  EXPECT_EQ(other.wrong.size(), 3u);
-  EXPECT_EQ(other.missing.size(), all - 3);
-  EXPECT_THAT(to_table(finder, found, &other), HasSubstr("  wrong    3\n    pose 1: q1 ="));
-  EXPECT_THAT(to_json(finder, found, &other), HasSubstr("\"against\":{\"agreed\":3,"));
-}
-
-TEST(PostureTable, IsRefusedWithItsLine) {
-  const auto fault = [](const std::string& text) -> std::string {
-    try {
-      static_cast<void>(rows_of(parse_table(text, "t.csv"), "t.csv"));
-    } catch (const symbolic::ModelError& error) {
-      return error.what();
-    }
-    return "none";
-  };
-  EXPECT_THAT(fault(""), HasSubstr("t.csv:1:1: the table is empty"));
-  EXPECT_THAT(fault("a,b\n1,2\n\n1\n"), HasSubstr("t.csv:4:1: 1 values under 2 names"));
-  EXPECT_THAT(fault("a,b,a\n1,2,3\n"), HasSubstr("the column 'a' occurs twice"));
-  EXPECT_EQ(fault("\xef\xbb\xbf"
-                  "a,b\n1,2\n"),
-            "none")
-      << "the mark of UTF-8";
-  EXPECT_THAT(fault("a,qw\n1,2\n"), HasSubstr("the quaternion is not complete"));
-  EXPECT_THAT(fault("qw,qx,qy,qz\n1,0,0,0\n0,0,0,0\n"), HasSubstr("t.csv:3:1: the quaternion"));
-  EXPECT_THAT(fault("qw,qx,qy,qz\n1,0,0,z\n"), HasSubstr("t.csv:2:1: the quaternion"));
-  EXPECT_EQ(fault("a,b\n1,pi/2\n"), "none");
 }
 
 }  // namespace

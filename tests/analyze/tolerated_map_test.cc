@@ -160,24 +160,16 @@ TEST(ToleratedMap, IsVerifiedForEveryRobotAndNotForMore) {
 }
 
 TEST(ToleratedMap, IsRefusedWhereRobotsWouldHaveDifferentPlanes) {
-  const auto fault = [](MapQuestion question) -> std::string {
-    try {
-      ParameterMapper(std::move(question), {});
-    } catch (const symbolic::ModelError& error) {
-      return error.what();
-    }
-    return "none";
-  };
-  EXPECT_THAT(fault({.question = two_bars(), .over = {{"r1", "1/2", "w"}, {"r2", "1/2", "5/2"}}}),
+  EXPECT_THAT(refusal_of({.question = two_bars(), .over = {{"r1", "1/2", "w"}, {"r2", "1/2", "5/2"}}}),
               HasSubstr("the range of 'r1' depends on 'd', which has a tolerance"));
-  EXPECT_THAT(fault({.question = two_bars(), .over = {{"r1", "1/2", "1"}, {"x", "0", "1"}}, .fixed = {{"y", "d"}}}),
+  EXPECT_THAT(refusal_of({.question = two_bars(), .over = {{"r1", "1/2", "1"}, {"x", "0", "1"}}, .fixed = {{"y", "d"}}}),
               HasSubstr("depends on 'd', which has a tolerance"));
-  EXPECT_EQ(fault({.question = two_bars(), .over = {{"r1", "1/2", "1"}, {"d", "1", "3"}}}), "none") << "it runs itself";
+  EXPECT_EQ(refusal_of({.question = two_bars(), .over = {{"r1", "1/2", "1"}, {"d", "1", "3"}}}), "none") << "it runs itself";
   MapQuestion counts{.question = model_question("dextar.cuik", symbolic::SingularitySet::cspace),
                      .over = {{"l2", "1/2", "3/2"}, {"l3", "1/2", "3/2"}},
                      .answer = MapAnswer::components};
   result::put_in(std::vector<result::ConstantOverride>{{"d", "1.18 ± 0.01"}}, counts.question.model);
-  EXPECT_THAT(fault(counts), HasSubstr("a map of components answers for one robot"));
+  EXPECT_THAT(refusal_of(counts), HasSubstr("a map of components answers for one robot"));
 }
 
 }  // namespace
