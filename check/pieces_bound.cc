@@ -10,6 +10,7 @@
 
 #include "corank/check/classes.h"
 #include "corank/check/distinct.h"
+#include "corank/check/growing_parts.h"
 #include "corank/check/parallel.h"
 #include "corank/check/piece_sheets.h"
 #include "corank/check/sheets.h"
@@ -26,8 +27,9 @@ using Mask = std::uint32_t;
 
 struct PieceOf {
   Mask signs = 0;
-  bool connected = false;            // else a passage
-  SignParts::Directions passages{};  // of a passage
+  bool connected = false;              // else a passage
+  SignParts::Directions directions{};  // of a passage
+  bool grows = false;                  // likewise
 };
 
 struct CellOfPiece {
@@ -56,14 +58,13 @@ class Bound {
   PieceBound run() {
     // What a step finds wrong is why nothing is confirmed.
     for (const auto& step :
-         {&Bound::check_bridges, &Bound::check_cells, &Bound::examine_all, &Bound::check_cover, &Bound::number_parts}) {
+         {&Bound::check_bridges, &Bound::check_cells, &Bound::examine_all, &Bound::check_cover, &Bound::divide_passages}) {
       result_.reason = (this->*step)();
       if (!result_.reason.empty()) return std::move(result_);
     }
     join_whole_cells();
     join_by_links();
     join_along_borders();
-    pass_through_single_parts();
     result_.reason = check_passages();
     if (!result_.reason.empty()) return std::move(result_);
     std::set<std::size_t> classes;
@@ -122,6 +123,13 @@ class Bound {
     return result;
   }
 
+  bool find_directions(PieceOf& part, const SignCell& cell, const std::vector<SignParts::Direction>& tried) const {
+    const std::vector<int> signs = list(part.signs);
+    part.directions = parts_.passages(cell, signs, tried);
+    part.grows = part.directions.any() || parts_.grow_together(cell, cell.mixed, signs);
+    return part.grows;
+  }
+
   // False: a part of it is not known.
   bool find_parts(CellOfPiece& c) const {
     std::vector<std::size_t> open;
@@ -138,8 +146,7 @@ class Bound {
       const SignParts::Part known = parts_.part(c.cell, signs, tried);
       if (known == SignParts::Part::empty) continue;
       part.connected = known == SignParts::Part::connected;
-      if (!part.connected) part.passages = parts_.passages(c.cell, signs, tried);
-      if (!part.connected && part.passages.none()) return false;
+      if (!part.connected && !find_directions(part, c.cell, tried)) return false;
       c.parts.push_back(part);
     }
     return true;
@@ -221,6 +228,7 @@ class Bound {
   std::string number_parts() {
     std::size_t parts = 0;
     std::vector<const Box*> hulls;
+    first_.clear();
     for (const CellOfPiece& c : cells_) {
       first_.push_back(parts);
       parts += c.parts.size();
@@ -243,43 +251,94 @@ class Bound {
     }
   }
 
-  // A connected part that nothing is joined to, such as the finder takes for a passage, is one, too, where it has a
-  // direction and touches no other.
-  void pass_through_single_parts() {
-    std::vector<std::size_t> size(first_.empty() ? 0 : first_.back() + cells_.back().parts.size(), 0), near = size;
-    for (std::size_t k = 0; k < size.size(); ++k) ++size[classes_.of(k)];
-    const auto may_pass = [&](std::size_t c, std::size_t p) {
-      return !cells_[c].parts[p].connected || size[classes_.of(first_[c] + p)] == 1;
-    };
+  // Parts that hang together and are passages, each by the numbers of its cell and of the part in the cell.
+  using Cluster = std::vector<std::pair<std::size_t, std::size_t>>;
+  std::vector<Cluster> clusters() const {
+    Classes together(cells_.empty() ? 0 : first_.back() + cells_.back().parts.size());
     for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
-      near[first_[c] + p] += may_pass(d, q);
-      near[first_[d] + q] += may_pass(c, p);
+      if (!cells_[c].parts[p].connected && !cells_[d].parts[q].connected) together.unite(first_[c] + p, first_[d] + q);
     });
+    std::map<std::size_t, Cluster> members;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p)
+        if (!cells_[c].parts[p].connected) members[together.of(first_[c] + p)].emplace_back(c, p);
+    std::vector<Cluster> result;
+    for (auto& [root, cluster] : members) result.push_back(std::move(cluster));
+    return result;
+  }
+
+  // Members that stand in the way of a proof that no piece lies in the cluster alone.
+  Cluster in_the_way_of(const Cluster& cluster) const {
+    std::vector<GrowingPart> passages;
+    for (const auto& [c, p] : cluster)
+      passages.push_back({&cells_[c].cell, cells_[c].sheet, cells_[c].parts[p].directions, cells_[c].parts[p].grows});
+    const std::vector<int> signs = list(cells_[cluster.front().first].parts[cluster.front().second].signs);
+    Cluster result;
+    for (const std::size_t i : in_the_way(parts_, passages, signs)) result.push_back(cluster[i]);
+    return result;
+  }
+
+  // Connected parts of a class without a cell that is all of one part, such as the finder takes for passages, are passages,
+  // too, where they have directions; but for those with which a cluster might hide a piece.
+  std::string check_passages() {
+    std::map<std::size_t, Cluster> small;
+    std::set<std::size_t> large;
     for (std::size_t c = 0; c < cells_.size(); ++c)
       for (std::size_t p = 0; p < cells_[c].parts.size(); ++p) {
         PieceOf& part = cells_[c].parts[p];
-        if (!part.connected || !may_pass(c, p) || near[first_[c] + p] > 0 || cells_[c].cell.mixed.empty()) continue;
-        part.passages = parts_.passages(cells_[c].cell, list(part.signs), directions(cells_[c].sheet));
-        part.connected = part.passages.none();
+        if (!part.connected) continue;
+        const std::size_t own = classes_.of(first_[c] + p);
+        const bool may_pass = !large.contains(own) && !cells_[c].cell.mixed.empty() &&
+                              find_directions(part, cells_[c].cell, directions(cells_[c].sheet));
+        if (may_pass)
+          small[own].emplace_back(c, p);
+        else
+          large.insert(own);
       }
+    const auto set_connected = [&](std::size_t own, bool connected) {
+      for (const auto& [c, p] : small.at(own)) cells_[c].parts[p].connected = connected;
+    };
+    std::erase_if(small, [&](const auto& entry) { return large.contains(entry.first); });
+    for (const auto& [own, cluster] : small) set_connected(own, false);
+    for (;;) {
+      bool changed = false;
+      for (const Cluster& cluster : clusters()) {
+        whole_.stop().poll();
+        if (in_the_way_of(cluster).empty()) continue;
+        bool had_connected = false;
+        for (const auto& [c, p] : cluster) {
+          const std::size_t own = classes_.of(first_[c] + p);
+          if (small.contains(own)) set_connected(own, true), small.erase(own);
+          had_connected = had_connected || cells_[c].parts[p].connected;
+        }
+        if (!had_connected) return "a piece might hide in cells about a crossing";
+        changed = true;
+      }
+      if (!changed) return "";
+    }
   }
 
-  std::string check_passages() {
-    Classes clusters(cells_.empty() ? 0 : first_.back() + cells_.back().parts.size());
-    for_each_pair([&](std::size_t c, std::size_t p, std::size_t d, std::size_t q) {
-      if (!cells_[c].parts[p].connected && !cells_[d].parts[q].connected) clusters.unite(first_[c] + p, first_[d] + q);
-    });
-    std::map<std::size_t, std::pair<std::size_t, SignParts::Directions>> common;  // its sheet, its directions
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-      for (std::size_t p = 0; p < cells_[c].parts.size(); ++p) {
-        const PieceOf& part = cells_[c].parts[p];
-        if (part.connected) continue;
-        const auto [place, fresh] = common.emplace(clusters.of(first_[c] + p), std::pair(cells_[c].sheet, part.passages));
-        if (!fresh && place->second.first != cells_[c].sheet) place->second.second.reset();
-        place->second.second &= part.passages;
-        if (place->second.second.none()) return "a piece might hide in cells about a crossing";
+  // Divides cells in which passages stand in the way of each other, so many times at most.
+  std::string divide_passages() {
+    constexpr int kRounds = 8;
+    for (int round = 0;; ++round) {
+      if (const std::string fault = number_parts(); !fault.empty()) return fault;
+      std::set<std::size_t> open;
+      for (const Cluster& cluster : clusters())
+        for (const auto& [c, p] : in_the_way_of(cluster)) open.insert(c);
+      if (open.empty() || round == kRounds) return "";
+      std::vector<CellOfPiece> cells;
+      for (std::size_t c = 0; c < cells_.size(); ++c) {
+        CellOfPiece& cell = cells_[c];
+        const auto examine_half = [&](const FreeSides& half) { return examine(cell.sheet, half, kHalvings, cells); };
+        const std::size_t before = cells.size();
+        if (open.contains(c) && in_halves(cell.sheet, cell.over, examine_half)) continue;
+        cells.resize(before);
+        cells.push_back(std::move(cell));
       }
-    return "";
+      cells_ = std::move(cells);
+      if (cells_.size() > kMostPieceCells) return "there are too many cells";
+    }
   }
 
   void join_whole_cells() {
@@ -358,8 +417,8 @@ class Bound {
       if (a.sheet != b.sheet || !a.parts[p].connected || !b.parts[q].connected) return;
       if (classes_.of(first_[c] + p) == classes_.of(first_[d] + q)) return;
       const auto both = common(c, d);
+      if (!both) return;
       for (const double share : {0.5, 0.0, 1.0, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98}) {
-        if (!both) return;
         SignCell at = parts_.cell(sheets_.free(a.sheet), a.cell.sides);
         for (std::size_t k = 0; k < both->size(); ++k) {
           const Interval& side = (*both)[k];

@@ -7,12 +7,8 @@
 //      solution over a part of a box that the cells of its sheet leave open is not in S, or lies in cells of other sheets.
 //      So every point of S lies in a cell, in its part of some signs.
 //   2. Each part is connected, or empty, or a passage (check/sign_parts.h).
-//   3. Let passages of like signs hang together by touching, and let all cells of such a cluster be of one sheet and have a
-//      direction d in common. From a point of the cluster one goes along d, within S, until one leaves the cluster's cells
-//      for good, at a point z of S. Near z the sheet, regular there, goes on within S as a graph over the free variables,
-//      beyond the border of that cell in the direction d; these points lie in cells, finitely many and closed, one of which
-//      holds z and no passage of the cluster, and since it touches the cluster none of another. So z is in a part of the
-//      first kind.
+//   3. Passages of like signs that touch hang together. A piece that lies in passages alone lies in those of one such cluster,
+//      and in none where check/growing_parts.h says so. So every piece of S has a connected part.
 //   4. Connected parts with a point in common are of one piece: a link's solution, proven to lie in both; or cells of one
 //      sheet over boxes that meet, one of which is all of one part.
 // So there are at most as many pieces as classes of connected parts.

@@ -49,6 +49,8 @@ class SignParts {
   Part part(const SignCell& cell, const std::vector<int>& signs, const std::vector<Direction>& directions) const;
   /// Which of the directions are a passage of that part.
   Directions passages(const SignCell& cell, const std::vector<int>& signs, const std::vector<Direction>& directions) const;
+  /// Is there a direction along which s_k·g_k grows all over the cell for each of these functions, mixed or not?
+  bool grow_together(SignCell cell, std::vector<std::size_t> functions, const std::vector<int>& signs) const;
   /// Directions worth a try, for a sheet of these widths; both ways.
   static std::vector<Direction> directions(const std::vector<double>& widths);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corank/analyze/aspects/aspect_product.h"
 #include "corank/analyze/topology/topology_with_ends.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/rounding.h"
@@ -29,6 +30,13 @@ std::vector<int> signs_of_determinant(const symbolic::TrigonometricSystem& equat
   return result;
 }
 
+void add_determinant_signs(const symbolic::TrigonometricSystem& equations, const symbolic::Loci& loci, Aspects& result) {
+  const std::vector<Box>& at = result.aspects.representatives;
+  const std::vector<int> y = signs_of_determinant(equations, result.system, loci.matrices[0], at);
+  const std::vector<int> z = signs_of_determinant(equations, result.system, loci.matrices[1], at);
+  for (std::size_t k = 0; k < at.size(); ++k) result.determinant_signs.push_back({y[k], z[k]});
+}
+
 }  // namespace
 
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control) {
@@ -47,6 +55,11 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   }
   for (const auto& e : loci.factors[0]) result.forward_factors.push_back(e.text());
   for (const auto& e : loci.factors[1]) result.inverse_factors.push_back(e.text());
+
+  if (count_in_free_coordinates(question, equations, loci, options, control, result)) {
+    add_determinant_signs(equations, loci, result);
+    return result;
+  }
 
   const solve::Options search{
       .sigma = solve::kWhole, .threads = options.threads, .proof = options.certificate, .proof_of_parts = false};
@@ -90,10 +103,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   result.aspects = count(loci.all_factors, true);
   if (result.cusps && cover.dimension == 2 && result.limits.empty())
     check_parity(question, options.threads, control, *result.cusps);
-  const std::vector<Box>& at = result.aspects.representatives;
-  const std::vector<int> y = signs_of_determinant(equations, result.system, loci.matrices[0], at);
-  const std::vector<int> z = signs_of_determinant(equations, result.system, loci.matrices[1], at);
-  for (std::size_t k = 0; k < at.size(); ++k) result.determinant_signs.push_back({y[k], z[k]});
+  add_determinant_signs(equations, loci, result);
   result.assembly_modes = count(loci.factors[0], false);
   result.working_modes = count(loci.factors[1], false);
   return result;

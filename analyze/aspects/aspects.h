@@ -20,8 +20,20 @@ struct PiecesFile;
 
 namespace corank::analyze {
 
+/// A factor of a C-space that is a product: what is said of some coordinates, to which the singularities do not tie others.
+struct AspectsPart {
+  std::vector<std::string> coordinates;
+  System system;
+  std::shared_ptr<const Cover> cover;               ///< with its proof, where AspectsOptions::certificate asks for it
+  std::array<Pieces, 3> lists;                      ///< aspects, assembly modes, working modes
+  std::array<std::vector<std::string>, 3> factors;  ///< of the determinants: the functions of each list
+};
+
 struct Aspects {
   Pieces aspects, assembly_modes, working_modes;
+  /// Where C-space is the graph of a map over free coordinates, and of more than two dimensions: its factors that
+  /// singularities divide. Their numbers of pieces are multiplied. What is drawn and asked of images and cusps is left out.
+  std::vector<AspectsPart> product_of;
   std::vector<std::string> forward_factors, inverse_factors;  ///< of det L_y, det L_z
   std::vector<std::string> limits;                            ///< to which C-space comes: pieces are strictly within
   System system;                                              ///< C-space: the variables of the boxes
@@ -31,8 +43,9 @@ struct Aspects {
   std::optional<PieceImages> images;    ///< of the aspects, where AspectsOptions::images asks for them
   std::optional<PieceDrawing> drawing;  ///< of the aspects, in AspectsOptions::drawn
   std::optional<AspectCusps> cusps;     ///< and the aspects about them, where AspectsOptions::cusps asks for them
-  std::shared_ptr<const Cover> cover;   ///< of C-space with its proof, where AspectsOptions::certificate asks for it
-  std::vector<int> places;              ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places)
+  /// Of C-space, or of the first factor, with its proof, where AspectsOptions::certificate asks for it.
+  std::shared_ptr<const Cover> cover;
+  std::vector<int> places;  ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places)
 };
 
 struct AspectsOptions {

@@ -77,25 +77,41 @@ std::string bounds(const Pieces& p) {
 
 }  // namespace
 
+namespace {
+
+void add_claims(PieceClaims& claims, const Pieces& pieces) {
+  claims.at_least = pieces.at_least;
+  claims.at_most = pieces.at_most;
+  if (claims.at_most) claims.proof = pieces.proof;
+  // Of pieces that are not known to differ there may be more.
+  for (int i = 0; i < claims.at_least; ++i)
+    claims.members.push_back({pieces.representatives[i], pieces.free[i], pieces.signs[i]});
+}
+
+}  // namespace
+
 result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
   CORANK_CHECK(a.cover != nullptr);
   auto file = file_about<result::PiecesFile>(question);
+  for (const AspectsPart& part : a.product_of) {
+    result::SpacePieces& space = &part == &a.product_of.front() ? file : file.further.emplace_back();
+    space.coordinates = part.coordinates;
+    space.space = *part.cover;
+    for (std::size_t k = 0; k < part.lists.size(); ++k) {
+      space.lists[k].factors = part.factors[k];
+      add_claims(space.lists[k], part.lists[k]);
+    }
+  }
+  if (!a.product_of.empty()) return file;
   file.space = *a.cover;
   file.lists[0].factors = file.lists[1].factors = a.forward_factors;
   file.lists[2].factors = a.inverse_factors;
   for (const std::string& f : a.inverse_factors)
     if (std::ranges::find(a.forward_factors, f) == a.forward_factors.end()) file.lists[0].factors.push_back(f);
   const std::array<const Pieces*, 3> lists{&a.aspects, &a.assembly_modes, &a.working_modes};
-  for (std::size_t k = 0; k < lists.size(); ++k) {
-    PieceClaims& claims = file.lists[k];
-    claims.at_least = lists[k]->at_least;
-    claims.at_most = lists[k]->at_most;
-    if (claims.at_most) claims.proof = lists[k]->proof;
-    // Of pieces that are not known to differ there may be more.
-    for (int i = 0; i < claims.at_least; ++i)
-      claims.members.push_back({lists[k]->representatives[i], lists[k]->free[i], lists[k]->signs[i],
-                                k == 0 ? a.determinant_signs[i] : std::array<int, 2>{}});
-  }
+  for (std::size_t k = 0; k < lists.size(); ++k) add_claims(file.lists[k], *lists[k]);
+  for (std::size_t i = 0; i < file.lists[0].members.size(); ++i)
+    file.lists[0].members[i].determinant_signs = a.determinant_signs[i];
   return file;
 }
 
@@ -113,6 +129,9 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n";
   text += fmt::format("  aspects         {}\n  assembly modes  {}\n  working modes   {}\n", bounds(a.aspects),
                       bounds(a.assembly_modes), bounds(a.working_modes));
+  for (const AspectsPart& part : a.product_of)
+    text += fmt::format("  {} {}: {}\n", &part == &a.product_of.front() ? "a product of   " : "           and ",
+                        fmt::join(part.coordinates, ", "), bounds(part.lists[0]));
   if (!a.limits.empty()) text += fmt::format("  strictly within {}\n", fmt::join(a.limits, ", "));
   const auto zeros = [](const std::vector<std::string>& factors) {
     return factors.empty() ? "nowhere" : fmt::format("where {} = 0", fmt::join(factors, " = 0 or "));
@@ -141,6 +160,8 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   json["assembly_modes"] = number(a.assembly_modes);
   json["working_modes"] = number(a.working_modes);
   json["bounds"] = {{"assembly_modes", bounds(a.assembly_modes)}, {"working_modes", bounds(a.working_modes)}};
+  for (const AspectsPart& part : a.product_of)
+    json["product_of"].push_back({{"coordinates", part.coordinates}, {"aspects", bounds(part.lists[0])}});
   json["factors"] = {{"forward", a.forward_factors}, {"inverse", a.inverse_factors}};
   json["limits"] = a.limits;
   json["representatives"] = Json::array();

@@ -289,6 +289,55 @@ class PieceCounter {
     return joined;
   }
 
+  // Which parts are passages, in as large classes as add no piece: those that are nothing else, and those of a class of
+  // connected parts that is joined to no cell without mixed functions, such as a corner that no link was found to.
+  std::vector<bool> passages() {
+    std::vector<bool> result;
+    std::map<std::size_t, bool> passes;  // of each class of connected parts
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      result.push_back(parts_[p].kind == Kind::passage);
+      if (parts_[p].kind != Kind::connected) continue;
+      bool& all = passes.emplace(proven_.find_set(p), true).first->second;
+      all = all && !cell_of(p).mixed.empty() && cells_.is_passage(parts_[p].cell);
+    }
+    for (bool found = true; found;) {
+      for (std::size_t p = 0; p < parts_.size(); ++p)
+        if (parts_[p].kind == Kind::connected) result[p] = passes.at(proven_.find_set(p));
+      found = false;
+      for (const std::vector<std::size_t>& cluster : clusters(result)) {
+        const std::vector<std::size_t> open = in_the_way(cluster);
+        const auto is_connected = [&](std::size_t p) { return parts_[p].kind == Kind::connected; };
+        const bool any = std::ranges::any_of(open, is_connected);
+        for (const std::size_t p : any || open.empty() ? open : cluster)
+          if (is_connected(p)) found = true, passes[proven_.find_set(p)] = false;
+      }
+    }
+    return result;
+  }
+
+  // Passages that touch: a piece may hide in them together.
+  std::vector<std::vector<std::size_t>> clusters(const std::vector<bool>& passes) {
+    boost::disjoint_sets_with_storage<> joined(parts_.size());
+    for_each_pair([&](std::size_t p, std::size_t q) {
+      if (passes[p] && passes[q]) joined.union_set(p, q);
+    });
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (passes[p]) members[joined.find_set(p)].push_back(p);
+    std::vector<std::vector<std::size_t>> result;
+    for (auto& [root, list] : members) result.push_back(std::move(list));
+    return result;
+  }
+
+  // Members that stand in the way of a proof that no piece lies in the cluster alone.
+  std::vector<std::size_t> in_the_way(const std::vector<std::size_t>& cluster) const {
+    std::map<std::size_t, std::size_t> part_in;
+    std::vector<std::size_t> cells, result;
+    for (const std::size_t p : cluster) part_in.emplace(parts_[p].cell, p), cells.push_back(parts_[p].cell);
+    for (const std::size_t c : cells_.hiding_places(cells, parts_[cluster.front()].signs)) result.push_back(part_in.at(c));
+    return result;
+  }
+
   void upper_bound(Pieces& result) {
     bool hidden = control_.ended();
     const auto unresolved = std::ranges::count_if(cells_.cells(), [](const SignCell& cell) { return !cell.resolved; });
@@ -296,24 +345,11 @@ class PieceCounter {
       result.reason = std::to_string(unresolved) + " cells next to singularities that are not resolved";
       return;
     }
-    // Passages that touch: a piece may hide in them together, but where they share a direction.
-    boost::disjoint_sets_with_storage<> clusters(parts_.size());
-    for_each_pair([&](std::size_t p, std::size_t q) {
-      if (parts_[p].kind == Kind::passage && parts_[q].kind == Kind::passage) clusters.union_set(p, q);
-    });
-    std::map<std::size_t, std::vector<std::size_t>> members;
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-      if (parts_[p].kind == Kind::passage) members[clusters.find_set(p)].push_back(p);
-    for (const auto& [root, list] : members) {
-      std::vector<std::size_t> cells;
-      for (const std::size_t p : list) cells.push_back(parts_[p].cell);
-      const Signs& signs = parts_[list.front()].signs;  // of all of them
-      const auto choice = [&](std::size_t c) { return cells_.choice(cells_.cells()[c], signs); };
-      if (cells_.common_directions(cells, choice) == 0) hidden = true;
-    }
+    const std::vector<bool> passes = passages();
+    for (const std::vector<std::size_t>& cluster : clusters(passes)) hidden = hidden || !in_the_way(cluster).empty();
     std::set<std::size_t> classes;
     for (std::size_t p = 0; p < parts_.size(); ++p)
-      if (parts_[p].kind == Kind::connected) classes.insert(proven_.find_set(p));
+      if (!passes[p]) classes.insert(proven_.find_set(p));
     if (!hidden) result.at_most = static_cast<int>(classes.size());
     if (hidden) result.reason = "cells about a crossing of singularity loci in which a piece might hide";
   }

@@ -142,7 +142,7 @@ std::vector<std::vector<int>> SignCells::choices(const SignCell& cell) const {
   for (const int k : cell.mixed)
     if (!is_limit(k)) open.push_back(k);
   std::vector<std::vector<int>> result;
-  if (open.size() > 2) return result;
+  if (open.size() > (cell.free.size() == 2 ? 2 : 3)) return result;
   for (std::size_t number = 0; number < std::size_t{1} << open.size(); ++number) {
     for (std::size_t k = 0; k < open.size(); ++k) signs[open[k]] = (number >> k & 1) != 0 ? 1 : -1;
     result.push_back(signs);
@@ -150,83 +150,16 @@ std::vector<std::vector<int>> SignCells::choices(const SignCell& cell) const {
   return result;
 }
 
-std::vector<std::vector<double>> SignCells::directions(const SignCell& cell) const {
-  std::vector<std::vector<double>> result;
-  const std::vector<int>& frees = cell.free;
-  const auto width = [&](std::size_t f) { return cover_.boxes[cell.box].box[frees[f]].width(); };
-  for (std::size_t a = 0; a < frees.size(); ++a) {
-    std::vector<double> d(frees.size(), 0.0);
-    d[a] = width(a);
-    result.push_back(d);
-    for (std::size_t b = 0; b < a; ++b)
-      for (const double share : {-4.0, -2.0, -1.0, -0.5, -0.25, 0.25, 0.5, 1.0, 2.0, 4.0}) {
-        d[b] = share * width(b);
-        result.push_back(d);
-        d[b] = 0;
-      }
-  }
-  // Where three limits meet.
-  for (std::size_t signs = 0; frees.size() == 3 && signs < 4; ++signs)
-    for (const double share : {1.0, 0.4})
-      result.push_back(
-          {width(0), ((signs & 1) != 0 ? share : -share) * width(1), ((signs & 2) != 0 ? share : -share) * width(2)});
-  constexpr std::size_t kBits = 64;
-  if (result.size() > kBits) result.resize(kBits);
-  return result;
-}
-
-// Lemma 3; false: there are none for some choice of signs.
-bool SignCells::find_directions(SignCell& cell) {
-  certify::SignCellTest::Slopes s;
-  cell.directions = {};
-  const std::vector<std::vector<int>> all = choices(cell);
-  if (all.empty() || !proof_.slopes(cell, s)) return false;
-  for (std::size_t c = all.size(); c < cell.directions.size(); ++c) cell.directions[c] = ~std::uint64_t{0};
-  std::uint64_t bit = 1;
-  for (const std::vector<double>& d : directions(cell)) {
-    for (std::size_t c = 0; c < all.size(); ++c)
-      if (certify::SignCellTest::growth(cell, s, d, all[c]) != 0) cell.directions[c] |= bit;
-    bit <<= 1;
-  }
-  if (cell.free.size() == 2 && cell.mixed.size() <= 2) add_convex_limits(cell, s);
-  return std::ranges::find(cell.directions, 0U) == cell.directions.end();
-}
-
-// Lemma 5, which holds for each choice of the other function's sign. A limit that grows in some direction and is alone
-// does not need it.
-void SignCells::add_convex_limits(SignCell& cell, const certify::SignCellTest::Slopes& slopes) {
-  const auto grows = [&](std::size_t k) {
-    return std::ranges::any_of(slopes[k], [](const Interval& by) { return sign_of(by) != 0; });
-  };
-  std::optional<std::vector<certify::SheetDerivatives>> mixed;
-  const auto add = [&](std::uint64_t bit) {
-    for (std::uint64_t& known : cell.directions) known |= bit;
-  };
-  for (std::size_t k = 0; k < cell.mixed.size(); ++k) {
-    if (!is_limit(cell.mixed[k]) || (cell.mixed.size() == 1 && grows(k))) continue;
-    if (!mixed) mixed = proof_.second_order(cell);
-    if (!mixed) return;
-    const certify::SheetDerivatives& e = (*mixed)[k];
-    if (cell.mixed.size() == 1) {
-      const std::vector<std::vector<double>> lines = directions(cell);
-      for (std::size_t d = 0; d < lines.size(); ++d)
-        if (certify::SignCellTest::convex_on_lines(e, lines[d])) add(std::uint64_t{1} << (kLines + d));
-      continue;
-    }
-    if (certify::SignCellTest::convex_on_levels(e, (*mixed)[1 - k])) add(std::uint64_t{1} << (kLevels + k));
-  }
-}
-
 bool SignCells::resolve(SignCell& cell) {
   if (cell.mixed.empty()) return true;
   if (cell.mixed.size() == 1) {
     const bool limit = is_limit(cell.mixed.front());
     if (part_of_one(cell, 1) != 0 && (limit || part_of_one(cell, -1) != 0)) return true;
-    if (!limit || !find_directions(cell)) return false;
+    if (!limit || !find_directions(cell, cell.free.size() > 2)) return false;
     // A limit that grows somewhere is cut on until its part is known.
     return has_convex_limit(cell);
   }
-  return find_directions(cell);
+  return find_directions(cell, cell.free.size() > 2);
 }
 
 // Cut where the functions vary most; nothing where rounding leaves no room.
@@ -269,25 +202,6 @@ bool SignCells::has_known_parts(SignCell& cell) {
   return *cell.known_parts;
 }
 
-// Those of several mixed functions in groups that share no direction, but for those whose parts are known.
-std::vector<std::vector<std::size_t>> SignCells::touching_passages() {
-  std::vector<std::size_t> cells;
-  std::vector<std::vector<std::size_t>> result;
-  for (std::size_t c = 0; c < cells_.size(); ++c)
-    if (cells_[c].resolved && (cells_[c].mixed.size() > 1 || has_convex_limit(cells_[c])) && !has_known_parts(cells_[c]))
-      cells.push_back(c);
-  const auto sides_of = [&](std::size_t c) -> const Box& { return cells_[c].sides; };
-  const std::vector<std::size_t> group = box_tree(cells, sides_of).groups(0, {});
-  std::map<std::size_t, std::vector<std::size_t>> members;
-  for (std::size_t k = 0; k < cells.size(); ++k) members[group[k]].push_back(cells[k]);
-  for (const auto& [number, list] : members) {
-    std::array<std::uint64_t, 4> common{};
-    for (std::size_t k = 0; k < common.size(); ++k) common[k] = common_directions(list, [&](std::size_t) { return k; });
-    if (list.size() > 1 && std::ranges::find(common, 0U) != common.end()) result.push_back(list);
-  }
-  return result;
-}
-
 // One whose region holds all of the cells' solutions.
 std::optional<SignCell> SignCells::sheet_over(const std::vector<std::size_t>& cells) {
   Box hull = cells_[cells.front()].sides;
@@ -327,18 +241,30 @@ void SignCells::refine(int halvings, int rounds, solve::Control& control) {
           continue;
         }
       // A corner on the zeros themselves: the third lemma does.
-      if (!now.cell.resolved && !control.ended()) now.cell.resolved = find_directions(now.cell);
+      if (!now.cell.resolved && !control.ended()) now.cell.resolved = find_directions(now.cell, true);
       done.push_back(std::move(now.cell));
     }
     cells_ = std::move(done);
     done.clear();
   };
   work();
+  // A few that are left are divided deeper, as where two loci cross at a small angle.
+  constexpr int kDeeper = 20;
+  constexpr std::ptrdiff_t kFew = 2'000;
+  for (int level = 0; level < kDeeper && !control.ended(); ++level) {
+    const auto left = std::ranges::count_if(cells_, [](const SignCell& cell) { return !cell.resolved; });
+    if (left == 0 || left > kFew) break;
+    for (SignCell& cell : cells_)
+      cell.resolved ? done.push_back(std::move(cell)) : waiting.push_back({std::move(cell), halvings - 1});
+    work();
+  }
   for (int round = 0; round < rounds && !control.ended(); ++round) {
     std::vector<std::size_t> touching;
     for (const std::vector<std::size_t>& group : touching_passages()) {
       touching.insert(touching.end(), group.begin(), group.end());
-      if (auto cell = sheet_over(group)) waiting.push_back({std::move(*cell), halvings / 2});
+      const auto is_of_first = [&](std::size_t c) { return cells_[c].box == cells_[group.front()].box; };
+      if (cover_.dimension > 2 && std::ranges::all_of(group, is_of_first)) continue;
+      if (auto cell = sheet_over(group)) waiting.push_back({std::move(*cell), cover_.dimension > 2 ? 0 : halvings / 2});
     }
     if (touching.empty()) return;
     std::ranges::sort(touching);

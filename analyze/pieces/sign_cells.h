@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -28,9 +29,9 @@ struct SignCell : certify::SheetCell {
   int box = 0;            ///< of the cover
   bool resolved = false;  ///< one of the lemmas holds for each choice of signs; of one mixed function the second
   /// The directions of lemma 3, as bits, for each choice of signs (SignCells::choice). They are the same for all cells of
-  /// one box of the cover: where neighbours share one, no piece hides in them together. Likewise those of
-  /// lemma 5.
-  std::array<std::uint64_t, 4> directions{};
+  /// one box of the cover. Likewise those of lemma 5.
+  std::array<std::uint64_t, 8> directions{};
+  std::uint8_t ascends = 0;           ///< bit k: for choice k there is some direction of lemma 3
   std::optional<bool> known_parts{};  ///< does lemma 4 hold for each choice of signs? Once it was asked
 };
 
@@ -45,8 +46,8 @@ class SignCells {
             const std::vector<Polynomial>& limits = {}, const Ended& ended = {});
 
   /// Divides cells until they are resolved, or the number of halvings of a box is reached; then, so many times, those that
-  /// the third lemma resolves and that touch others of their kind with which they share no direction: a sheet of their own
-  /// is put over them where one is proven, as where loci cross on a border between sheets.
+  /// the third lemma resolves and in which a piece might hide (hiding_places) are divided further: a sheet
+  /// of their own is put over them where one is proven.
   void refine(int halvings, int rounds, solve::Control& control);
 
   const std::vector<SignCell>& cells() const { return cells_; }
@@ -59,18 +60,14 @@ class SignCells {
   bool is_limit(int function) const { return function >= functions() - limits_; }
   /// Those signs of a cell's mixed functions that are free to choose, as bits: all but the limits'.
   std::size_t choice(const SignCell& cell, const std::vector<int>& signs) const;
-  /// Of each choice that there is the signs of all functions. Nothing: more than two of them have both signs.
+  /// Of each choice that there is the signs of all functions. Nothing: more than three of them have both signs, in the plane two.
   std::vector<std::vector<int>> choices(const SignCell& cell) const;
-  /// The directions, as bits, that all of these cells have for a choice of signs of each. `choice`: of a cell by its number.
-  template <class Choice>
-  std::uint64_t common_directions(const std::vector<std::size_t>& cells, const Choice& choice) const {
-    std::uint64_t common = ~std::uint64_t{0};
-    const SignCell& first = cells_[cells.front()];
-    for (const std::size_t c : cells)
-      common &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[choice(c)] : 0;
-    return common;
-  }
+  /// Of passages of these signs that hang together, the cells that stand in the way of a proof that no piece lies in them
+  /// alone; none: it is proven. Theorem: doc/theory.md, "Passages that hang together".
+  std::vector<std::size_t> hiding_places(const std::vector<std::size_t>& cells, const std::vector<int>& signs) const;
   const Box& region(const SignCell& cell) const;
+  /// Is there a direction of lemma 3 for each choice of signs? Looked for where the cell is resolved without.
+  bool is_passage(std::size_t cell);
 
   /// The part of a cell's sheet over other free sides, with its ranges.
   SignCell cell_over(const SignCell& cell, Box sides);
@@ -99,10 +96,13 @@ class SignCells {
   bool resolve(SignCell& cell);
   std::optional<std::vector<SignCell>> halves(const SignCell& cell);
   bool is_covered_before(const SignCell& cell) const;
+  bool differ_in_directions(const std::vector<std::size_t>& cells) const;
   std::vector<std::vector<std::size_t>> touching_passages();
   std::optional<SignCell> sheet_over(const std::vector<std::size_t>& cells);
   bool has_known_parts(SignCell& cell);
-  bool find_directions(SignCell& cell);
+  bool find_directions(SignCell& cell, bool any);
+  bool grows(const SignCell& cell, const certify::SignCellTest::Slopes& slopes, const std::vector<int>& signs) const;
+  bool climbs(const SignCell& cell, const std::map<int, double>& sizes, const std::vector<int>& signs) const;
   void add_convex_limits(SignCell& cell, const certify::SignCellTest::Slopes& slopes);
   // Of a cell with one mixed function: does lemma 5 hold?
   static bool has_convex_limit(const SignCell& cell) { return cell.free.size() == 2 && cell.directions[0] >> kLines != 0; }

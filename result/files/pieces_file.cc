@@ -1,8 +1,11 @@
 // The file of the pieces of a C-space.
+#include <numeric>
+
 #include "corank/result/files/cover_group.h"
 #include "corank/result/files/source_group.h"
 #include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/determinant_factors.h"
+#include "corank/symbolic/sets/free_coordinates.h"
 
 namespace corank::result {
 namespace {
@@ -15,17 +18,77 @@ symbolic::TrigonometricSystem cspace_of(const symbolic::Mechanism& model) {
   return symbolic::singularity_system(model, symbolic::SingularitySet::cspace);
 }
 
-std::vector<check::PieceFunctions> functions_of(const symbolic::Mechanism& model, const PiecesFile& file) {
-  const symbolic::TrigonometricSystem equations = cspace_of(model);
-  const symbolic::Loci loci = symbolic::singularity_loci(model);
-  const std::array matrices{polynomials(equations, loci.matrices[0]), polynomials(equations, loci.matrices[1])};
-  const auto list = [&](const PieceClaims& claims, const std::vector<symbolic::Expression>& own) {
-    std::vector<symbolic::Expression> named;
-    for (const std::string& text : claims.factors) named.push_back(symbolic::parse_expression(text, "a factor"));
-    return check::PieceFunctions{symbolic::polynomials(equations, named), symbolic::polynomials(equations, own), matrices};
-  };
-  return {list(file.lists[0], loci.all_factors), list(file.lists[1], loci.factors[0]), list(file.lists[2], loci.factors[1])};
+std::vector<symbolic::Expression> parsed(const std::vector<std::string>& texts) {
+  std::vector<symbolic::Expression> result;
+  for (const std::string& text : texts) result.push_back(symbolic::parse_expression(text, "a factor"));
+  return result;
 }
+
+// What the claims are about, from the model: C-space, or the factors of a product.
+class Spaces {
+ public:
+  explicit Spaces(const symbolic::Mechanism& model) : model_(model) {}
+
+  symbolic::TrigonometricSystem equations(const SpacePieces& pieces) {
+    return pieces.coordinates.empty() ? cspace_of(model_) : part(pieces.coordinates).system;
+  }
+
+  std::vector<check::PieceFunctions> functions(const SpacePieces& pieces) {
+    const symbolic::TrigonometricSystem system = equations(pieces);
+    std::array<PolynomialMatrix, 2> matrices;
+    // Of a factor no configuration is known, and no sign of a determinant.
+    if (pieces.coordinates.empty())
+      matrices = {polynomials(system, loci().matrices[0]), polynomials(system, loci().matrices[1])};
+    std::vector<std::size_t> all(loci().all_factors.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::array<std::vector<std::size_t>, 3> lists{all, loci().places[0], loci().places[1]};
+    std::vector<check::PieceFunctions> result;
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+      std::vector<symbolic::Expression> own;
+      for (const std::size_t i : lists[k])
+        if (pieces.coordinates.empty() || std::ranges::count(part(pieces.coordinates).functions, i) > 0)
+          own.push_back(loci().all_factors[i]);
+      result.push_back(
+          {symbolic::polynomials(system, parsed(pieces.lists[k].factors)), symbolic::polynomials(system, own), matrices});
+    }
+    return result;
+  }
+
+  // Are these the factors of the product, each once?
+  bool are_all(const PiecesFile& file) {
+    if (file.coordinates.empty()) return file.further.empty();
+    std::vector<std::vector<std::string>> named{file.coordinates}, known;
+    for (const SpacePieces& pieces : file.further) named.push_back(pieces.coordinates);
+    for (const symbolic::IndependentPart& p : parts()) known.push_back(names_of(p.system.coordinates));
+    std::ranges::sort(named);
+    std::ranges::sort(known);
+    return named == known;
+  }
+
+ private:
+  const symbolic::Loci& loci() {
+    if (!loci_) loci_ = symbolic::singularity_loci(model_);
+    return *loci_;
+  }
+  const std::vector<symbolic::IndependentPart>& parts() {
+    if (!parts_) {
+      parts_.emplace();
+      if (const auto free = symbolic::free_coordinates(model_))
+        if (auto found = symbolic::independent_parts(*free, loci().all_factors)) parts_ = std::move(found);
+    }
+    return *parts_;
+  }
+  const symbolic::IndependentPart& part(const std::vector<std::string>& coordinates) {
+    const auto found =
+        std::ranges::find_if(parts(), [&](const auto& p) { return names_of(p.system.coordinates) == coordinates; });
+    if (found == parts().end()) throw ResultFileError("its coordinates are not those of a factor of the model's C-space");
+    return *found;
+  }
+
+  const symbolic::Mechanism& model_;
+  std::optional<symbolic::Loci> loci_;
+  std::optional<std::vector<symbolic::IndependentPart>> parts_;
+};
 
 // Boxes have n sides; as many variables are held or free as C-space has dimensions.
 struct Sizes {
@@ -83,26 +146,42 @@ void store_proof(File& to, const std::string& group, Data& proof, const Sizes& s
   file.list(place + "links_", proof.links, sizes.links(), Storage::packed);
 }
 
-template <class File, class Data>
-void store_pieces(File& to, Data& data) {
+template <class File, class Pieces>
+void store_space(File& to, const std::string& group, Pieces& pieces, Spaces& spaces) {
+  to.enter(group);
   const StoredPart file(to);
-  const std::vector<std::string> variables = names(symbolic::algebrize(cspace_of(model_of(data))));
+  file.texts("/coordinates", pieces.coordinates);
+  const std::vector<std::string> variables = names(symbolic::algebrize(spaces.equations(pieces)));
   file.same("/variables", variables, "its variables are not those of the model");
   if constexpr (file.kWrites)
-    write_cover(to, "/space", data.space, variables.size());
+    write_cover(to, group + "/space", pieces.space, variables.size());
   else
-    data.space = read_cover(to, "/space", variables.size());
-  const Sizes sizes{variables.size(), static_cast<std::size_t>(data.space.dimension)};
-  const auto group = [](std::size_t list) { return std::string("/") + kLists[list]; };
-  for (std::size_t k = 0; k < kLists.size(); ++k) store_claims(to, group(k), data.lists[k], sizes);
+    pieces.space = read_cover(to, group + "/space", variables.size());
+  const Sizes sizes{variables.size(), static_cast<std::size_t>(pieces.space.dimension)};
+  const auto list = [&](std::size_t k) { return group + "/" + kLists[k]; };
+  for (std::size_t k = 0; k < kLists.size(); ++k) store_claims(to, list(k), pieces.lists[k], sizes);
   for (std::size_t k = 0; k < kLists.size(); ++k) {
-    auto& proof = data.lists[k].proof;
+    auto& proof = pieces.lists[k].proof;
     to.enter("");
     if constexpr (!file.kWrites)
-      if (to.has(group(k) + "/proof")) proof.emplace();
-    file.check(!proof || sizes.dimension > 0, group(k) + "/proof: a set of points has none");
-    if (proof) store_proof(to, group(k), *proof, sizes);
+      if (to.has(list(k) + "/proof")) proof.emplace();
+    file.check(!proof || sizes.dimension > 0, list(k) + "/proof: a set of points has none");
+    if (proof) store_proof(to, list(k), *proof, sizes);
   }
+}
+
+template <class File, class Data>
+void store_pieces(File& to, Data& data) {
+  constexpr std::size_t kMostFactors = 1'000;
+  std::size_t further = data.further.size();
+  const StoredPart file(to);
+  file("further_factors", further, 0, kMostFactors);
+  if constexpr (!file.kWrites) data.further.resize(further);
+  const symbolic::Mechanism model = model_of(data);
+  Spaces spaces(model);
+  store_space(to, "", data, spaces);
+  for (std::size_t k = 0; k < further; ++k) store_space(to, "/factor_" + std::to_string(k + 2), data.further[k], spaces);
+  if (!spaces.are_all(data)) throw ResultFileError("its factors are not those of the model's C-space");
 }
 
 }  // namespace
@@ -116,10 +195,55 @@ PiecesFile read_pieces(const std::filesystem::path& path) {
                                       [](Hdf5Reader& file, PiecesFile& data) { store_pieces(file, data); });
 }
 
+namespace {
+
+// Numbers of pieces of a product.
+template <class Bounds, class Other>
+void multiply(Bounds& to, const Other& by) {
+  to.at_least *= by.at_least;
+  to.at_most = to.at_most && by.at_most ? std::optional(*to.at_most * *by.at_most) : std::nullopt;
+}
+
+// What is confirmed of the product of two spaces.
+void multiply(check::PiecesReport& to, check::PiecesReport by) {
+  if (to.space.complete()) to.space = std::move(by.space);
+  std::ranges::move(by.failures, std::back_inserter(to.failures));
+  if (by.interrupted && !to.interrupted) to.interrupted = true, to.stage = by.stage;
+  to.lists.resize(std::min(to.lists.size(), by.lists.size()));
+  for (std::size_t k = 0; k < to.lists.size(); ++k) {
+    check::PieceReport &a = to.lists[k], &b = by.lists[k];
+    multiply(a, b);
+    a.members += b.members;
+    a.cells += b.cells;
+    a.cells_of_bound += b.cells_of_bound;
+    a.links += b.links;
+    a.bounded = a.bounded && b.bounded;
+    if (a.unbounded.empty()) a.unbounded = b.unbounded;
+    std::ranges::move(b.failures, std::back_inserter(a.failures));
+  }
+}
+
+// Of all spaces.
+PieceClaims claimed(const PiecesFile& file, std::size_t list) {
+  PieceClaims result;
+  result.at_least = file.lists[list].at_least;
+  result.at_most = file.lists[list].at_most;
+  for (const SpacePieces& pieces : file.further) multiply(result, pieces.lists[list]);
+  return result;
+}
+
+}  // namespace
+
 check::PiecesReport verify(const PiecesFile& file, const check::Options& options) {
   const symbolic::Mechanism model = model_of(file);
-  return check::check_pieces(symbolic::algebrize(cspace_of(model)), file.space, {file.lists.begin(), file.lists.end()},
-                             functions_of(model, file), options);
+  Spaces spaces(model);
+  const auto check = [&](const SpacePieces& pieces) {
+    return check::check_pieces(symbolic::algebrize(spaces.equations(pieces)), pieces.space,
+                               {pieces.lists.begin(), pieces.lists.end()}, spaces.functions(pieces), options);
+  };
+  check::PiecesReport report = check(file);
+  for (const SpacePieces& pieces : file.further) multiply(report, check(pieces));
+  return report;
 }
 
 namespace {
@@ -156,7 +280,7 @@ std::string to_table(const check::PiecesReport& report, const PiecesFile& file) 
   for (std::size_t k = 0; k < report.lists.size(); ++k) {
     const check::PieceReport& r = report.lists[k];
     text += fmt::format("  {:<14}  claimed: {}; confirmed: {}, {} members with their signs, on {} cells", kLists[k],
-                        bounds(file.lists[k]), bounds(r), r.members, r.cells);
+                        bounds(claimed(file, k)), bounds(r), r.members, r.cells);
     text += r.at_most ? fmt::format(" and {} of the file's with {} links\n", r.cells_of_bound, r.links) : "\n";
   }
   std::string open = open_lines(report);
@@ -172,7 +296,8 @@ std::string to_json(const check::PiecesReport& report, const PiecesFile& file) {
                               {"interrupted", report.interrupted}};
   for (std::size_t k = 0; k < report.lists.size(); ++k) {
     const check::PieceReport& r = report.lists[k];
-    json[kLists[k]] = {{"claimed", {{"at_least", file.lists[k].at_least}, {"at_most", or_null(file.lists[k].at_most)}}},
+    const PieceClaims all = claimed(file, k);
+    json[kLists[k]] = {{"claimed", {{"at_least", all.at_least}, {"at_most", or_null(all.at_most)}}},
                        {"at_least", r.at_least},
                        {"at_most", or_null(r.at_most)},
                        {"members", r.members},

@@ -31,9 +31,14 @@ struct ModelSource {
 struct ShapeFile : ModelSource {
   Shape shape;
 };
-struct PiecesFile : ModelSource {
+/// Of a C-space, or of a factor of one that is a product (analyze/aspects/aspect_product.h).
+struct SpacePieces {
+  std::vector<std::string> coordinates;  ///< of the factor; none: all of C-space
   Cover space;
   std::array<PieceClaims, 3> lists;  ///< aspects, assembly modes, working modes
+};
+struct PiecesFile : ModelSource, SpacePieces {
+  std::vector<SpacePieces> further;  ///< the product's other factors
 };
 struct PathFile : ModelSource {
   std::string avoid = "forward";       ///< which singularities it is without: "forward", "inverse", "both"
@@ -49,7 +54,7 @@ struct CertificateKind {
   const char* format;  ///< what format_of() says of the file
   int version = 1;
 };
-inline constexpr CertificateKind kShapeKind{"corank topology", 1}, kPiecesKind{"corank aspects", 1},
+inline constexpr CertificateKind kShapeKind{"corank topology", 1}, kPiecesKind{"corank aspects", 2},
     kPathKind{"corank path", 2}, kMapKind{"corank map", 2};
 
 /// Throw ResultFileError; symbolic::ModelError where the model has nothing of which this could be claimed. Once `in_haste`

@@ -300,6 +300,13 @@ RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f,
   return result.size() <= f.size() || in_fewer ? result : f;
 }
 
+std::vector<Relation> ExactMatrix::given() const {
+  std::vector<Relation> result;
+  for (const auto& [unknown, value] : explicit_)
+    result.push_back(expression(RationalPolynomial::unknown(unknowns_->ring(), unknown)) == expression(value));
+  return result;
+}
+
 Expression ExactMatrix::entry(std::size_t row, std::size_t column) const { return expression(rows_[row][column]); }
 
 Expression ExactMatrix::expression(const RationalPolynomial& f) const {

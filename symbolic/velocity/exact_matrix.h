@@ -65,6 +65,8 @@ class ExactMatrix {
 
   /// Does every equation of Φ give a coordinate so?
   bool is_explicit() const { return explicit_.size() == equations_; }
+  /// Those coordinates and what they are, x = f, in the equations' order.
+  std::vector<Relation> given() const;
 
   Expression entry(std::size_t row, std::size_t column) const;
   Expression expression(const RationalPolynomial& f) const;

@@ -1,0 +1,147 @@
+#include "corank/symbolic/sets/free_coordinates.h"
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <map>
+#include <set>
+
+#include "corank/core/rounding.h"
+#include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/algebra/expression_range.h"
+#include "corank/symbolic/velocity/exact_matrix.h"
+
+namespace corank::symbolic {
+namespace {
+
+bool is_in_range(const Mechanism& mechanism, const Coordinate& c, const Interval& value) {
+  const Interval lower = exact_value(mechanism, c.lower, c.name).enclose();
+  const Interval upper = exact_value(mechanism, c.upper, c.name).enclose();
+  return lower.hi() < value.lo() && value.hi() < upper.lo();
+}
+
+// u_link2 of u_link2_x.
+std::string vector_of(const std::string& component) { return component.substr(0, component.rfind('_')); }
+
+// Of the auxiliary given coordinates the vectors, as far as they are given, whose length is 1 at every configuration.
+std::set<std::string> unit_vectors(const Mechanism& mechanism, const std::vector<Relation>& given) {
+  std::map<std::string, std::vector<Expression>> components;
+  for (const Relation& r : given)
+    if (mechanism.coordinates()[mechanism.find_coordinate(r.lhs.name())].auxiliary)
+      components[vector_of(r.lhs.name())].push_back(r.lhs);
+  std::set<std::string> result;
+  for (const auto& [name, list] : components) {
+    Expression sum(-1);
+    for (const Expression& x : list) sum = sum + pow(x, 2);
+    const ExactMatrix matrix(mechanism, {{"sum"}, {{sum}}}, residuals(mechanism));
+    if (matrix.in_free_coordinates(matrix.determinant({{0}, {0}})).is_zero()) result.insert(name);
+  }
+  return result;
+}
+
+std::vector<std::string> mentioned(const std::vector<Coordinate>& coordinates, const Expression& e) {
+  std::vector<std::string> result;
+  for (const Coordinate& c : coordinates)
+    if (e.mentions(c.name)) result.push_back(c.name);
+  return result;
+}
+
+}  // namespace
+
+std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
+  const ExactMatrix none(mechanism, {}, residuals(mechanism));
+  if (!none.is_explicit()) return std::nullopt;
+  FreeCoordinates result{plain_system(mechanism), none.given()};
+  TrigonometricSystem& system = result.system;
+  system.equations.clear();
+  std::map<std::string, Expression> values;
+  for (const Relation& r : result.given) values.emplace(r.lhs.name(), r.rhs.substituted(values));
+  std::erase_if(system.coordinates, [&](const Coordinate& c) { return values.contains(c.name); });
+  for (auto& inequality : system.inequalities) inequality.relation = inequality.relation.substituted(values);
+
+  // Does the range of a given coordinate cut anything off?
+  const UpwardRounding rounding;
+  std::map<std::string, Interval> ranges;
+  for (const Coordinate& c : system.coordinates)
+    ranges[c.name] = Interval(exact_value(mechanism, c.lower, c.name).enclose().lo(),
+                              exact_value(mechanism, c.upper, c.name).enclose().hi());
+  const auto known = [&](const Expression& e) -> std::optional<Interval> {
+    if (e.is_named_function() && (e.name() == "sin" || e.name() == "cos")) return Interval(-1, 1);
+    if (e.kind() != Expression::Kind::symbol) return std::nullopt;
+    if (const auto own = ranges.find(e.name()); own != ranges.end()) return own->second;
+    return exact_value(mechanism, e, e.name()).enclose();
+  };
+  std::optional<std::set<std::string>> units;
+  for (const Relation& r : result.given) {
+    const std::string& name = r.lhs.name();
+    const Coordinate& c = mechanism.coordinates()[mechanism.find_coordinate(name)];
+    if (is_fixed(c)) return std::nullopt;
+    const auto limited = std::ranges::find(mechanism.limits(), name, &Limit::coordinate);
+    if (!c.has_range && limited == mechanism.limits().end()) continue;  // its range is what the equations say
+    const std::optional<Interval> range = range_of(values.at(name), known);
+    if (range && limited == mechanism.limits().end() && is_in_range(mechanism, c, *range)) continue;
+    if (c.auxiliary && is_in_range(mechanism, c, Interval(-1, 1))) {
+      if (!units) units = unit_vectors(mechanism, result.given);
+      if (units->contains(vector_of(name))) continue;
+    }
+    std::vector<Coordinate> own{c};
+    keep_limits(mechanism, own);
+    system.inequalities.push_back({values.at(name) >= own.front().lower, "lower end of " + name, c.where});
+    system.inequalities.push_back({values.at(name) <= own.front().upper, "upper end of " + name, c.where});
+  }
+  return result;
+}
+
+std::optional<std::vector<IndependentPart>> independent_parts(const FreeCoordinates& free,
+                                                              const std::vector<Expression>& functions) {
+  const std::vector<Coordinate>& all = free.system.coordinates;
+  const auto has_given = [&](const Expression& e) {
+    return std::ranges::any_of(free.given, [&](const Relation& r) { return e.mentions(r.lhs.name()); });
+  };
+  if (std::ranges::any_of(functions, has_given)) return std::nullopt;
+  const auto place = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(all, name, &Coordinate::name) - all.begin());
+  };
+  boost::disjoint_sets_with_storage<> tied(all.size());
+  std::vector<bool> asked(all.size(), false);
+  // One of the coordinates that it is about; as many as there are: none.
+  const auto tie = [&](const Expression& e) {
+    std::size_t first = all.size();
+    for (const std::string& name : mentioned(all, e)) {
+      const std::size_t k = place(name);
+      asked[k] = true;
+      if (is_fixed(all[k])) continue;  // a number
+      if (first < all.size()) tied.union_set(first, k);
+      first = k;
+    }
+    return first;
+  };
+  std::vector<std::size_t> of_function, of_inequality;
+  for (const Expression& f : functions) of_function.push_back(tie(f));
+  for (const auto& e : free.system.inequalities) of_inequality.push_back(tie(e.relation.lhs - e.relation.rhs));
+  std::map<std::size_t, std::size_t> numbers;
+  std::vector<IndependentPart> parts;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!asked[k] || is_fixed(all[k])) continue;
+    const auto [own, fresh] = numbers.emplace(tied.find_set(k), parts.size());
+    if (!fresh) continue;
+    parts.push_back({free.system, {}});
+    parts.back().system.coordinates.clear();
+    parts.back().system.inequalities.clear();
+  }
+  if (parts.empty()) return std::nullopt;
+  const auto part_of = [&](std::size_t k) { return k < all.size() ? numbers.at(tied.find_set(k)) : 0; };
+  for (std::size_t i = 0; i < functions.size(); ++i) parts[part_of(of_function[i])].functions.push_back(i);
+  for (std::size_t i = 0; i < of_inequality.size(); ++i)
+    parts[part_of(of_inequality[i])].system.inequalities.push_back(free.system.inequalities[i]);
+  for (IndependentPart& part : parts)
+    for (const Coordinate& c : all) {
+      const auto about = [&](const Expression& e) { return e.mentions(c.name); };
+      if (std::ranges::any_of(part.functions, [&](std::size_t i) { return about(functions[i]); }) ||
+          std::ranges::any_of(part.system.inequalities,
+                              [&](const auto& e) { return about(e.relation.lhs) || about(e.relation.rhs); }))
+        part.system.coordinates.push_back(c);
+    }
+  return parts;
+}
+
+}  // namespace corank::symbolic
