@@ -6,7 +6,8 @@
 //  - bounds {"lo", "hi"} of a value prove it within their width;
 //  - a list stands for the number of its items;
 //  - nothing is proven of an answer that says "complete": false or "proven": false; nor of the number of its boxes or points
-//    where boxes are undecided, pending, partial or may reach beyond the search domain.
+//    where boxes are undecided, pending, partial or may reach beyond the search domain, or where pairs of configurations that
+//    are near to each other were not searched for ("node_distance").
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ struct Expectation {
   double tolerance = 0;       ///< of a number; where corank gives bounds, of each of them
   std::string published;      ///< the number as the publication has it
   std::string contradiction;  ///< not empty: the value is not what was published; why, and how that was checked
-  bool proven = true;         ///< corank's answer is to be proven, not only to agree
+  bool proven = true;         ///< false: corank has no proof of it, and need not have one
 };
 
 struct GalleryQuestion {

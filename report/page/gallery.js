@@ -11,10 +11,18 @@ function kernelRates(model, x) {
   return Object.fromEntries(set.columns.map((column, k) => [names[column], set.scales[k] * x[set.configuration + k]]));
 }
 
+// With room for the arrows, whose longest has a fifth of the width.
+function roomy([x0, y0, x1, y1]) {
+  const extra = 0.1 * (x1 - x0);
+  return [x0 - extra, y0 - extra, x1 + extra, y1 + extra];
+}
+
 function drawRobot(svg) {
   const {model, x} = JSON.parse(document.getElementById(`robot-${svg.dataset.robot}`).textContent);
-  const values = coordinateValues(model, x);
-  drawMechanism(svg, model, values, kernelRates(model, x), drawingWindow(model, [values]), {unit: 0.8});
+  const values = coordinateValues(model, x),
+    rates = kernelRates(model, x),
+    window = drawingWindow(model, [values]);
+  drawMechanism(svg, model, values, rates, rates ? roomy(window) : window, {unit: 0.8});
 }
 
 function showGallery() {
