@@ -84,7 +84,7 @@ report::GalleryRun run_child(const std::filesystem::path& program, const std::ve
   double asked = -1;
   while (poll(&ended, 1, 100) == 0 || !(ended.revents & POLLIN)) {
     const double now = seconds_since(start);
-    const bool late = now > seconds;
+    const bool late = seconds > 0 && now > seconds;
     if (asked < 0 && (late || stop)) {
       run.timed_out = late;
       asked = now;

@@ -150,7 +150,8 @@ void add_gallery(CLI::App& program, Action& action) {
       ->capture_default_str();
   sub->add_flag("--quick", command->quick, "Only the entries that take seconds");
   sub->add_flag("--fresh", command->fresh, "Run every command again, also those whose answers are stored in the folder");
-  sub->add_option("--time-limit", command->time_limit, "End each command after SECONDS; its entry is then not met")
+  sub->add_option("--time-limit", command->time_limit,
+                  "End each command after SECONDS, so that its entry is not met; 0: no limit")
       ->type_name("SECONDS")
       ->capture_default_str();
   add_threads(*sub, command->threads);

@@ -18,7 +18,7 @@ std::vector<GalleryEntry> read_entries(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code error;
   for (const auto& item : std::filesystem::directory_iterator(folder, error))
-    if (item.path().extension() == ".toml") files.push_back(item.path());
+    if (item.path().extension() == ".toml" && item.is_regular_file()) files.push_back(item.path());
   if (files.empty()) throw symbolic::ModelError({folder.string()}, "no entry is there", "files NAME.toml");
   std::ranges::sort(files);
   std::vector<GalleryEntry> entries;

@@ -93,7 +93,7 @@ Expectation expectation_of(EntryTable& table) {
   Expectation e;
   e.claim = table.text("claim", true);
   e.at = table.text("at", true);
-  if (e.at.front() != '/') table.fail("at", "at is no JSON pointer", "\"/name\"");
+  if (e.at.front() != '/' || e.at.find('~') != std::string::npos) table.fail("at", "at is no JSON pointer", "\"/name\"");
   e.value = table.value("value");
   e.tolerance = table.number("tolerance", 0);
   e.published = table.text("published", true);

@@ -51,8 +51,9 @@ GallerySums sums_of(const std::vector<GalleryResult>& results) {
 }
 
 std::string to_words(const GallerySums& sums) {
-  std::string words = fmt::format("{} {} with {} published numbers: {} proven", sums.entries,
-                                  sums.entries == 1 ? "entry" : "entries", sums.numbers, sums.proven);
+  std::string words =
+      fmt::format("{} {} with {} published {}: {} proven", sums.entries, sums.entries == 1 ? "entry" : "entries",
+                  sums.numbers, sums.numbers == 1 ? "number" : "numbers", sums.proven);
   const auto add = [&words](std::size_t n, const char* what) {
     if (n > 0) words += fmt::format(", {} {}", n, what);
   };
