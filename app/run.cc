@@ -167,7 +167,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   program.formatter(std::make_shared<HelpFormat>());
   program.set_version_flag("--version", "corank " + result::version());
   program.add_flag_callback(
-      "--cite", [] { throw CLI::CallForVersion(citation() + "\n", 0); }, "Print how to cite corank, as BibTeX, and exit");
+      "--cite", [] { throw CLI::CallForVersion(citation(), 0); }, "Print how to cite corank, as BibTeX, and exit");
   program.require_subcommand(1);
   program.footer(
       "corank SUBCOMMAND --help explains a subcommand.\n\n"

@@ -196,8 +196,25 @@ def rssr():
     return len(roots(dead, 2, 400))
 
 
+def baranov_truss():
+    def gaps(x):  # the wing's angle, those of the links right and left, their hinge K
+        wing, right, left = (turn(2, a)[:2, :2] for a in x[:3])
+        hinge = x[3:]
+        return np.array(
+            [
+                *(hinge + right @ [4, -1] - [4 + 6 * np.cos(-2.68), 6 * np.sin(-2.68)]),
+                np.linalg.norm(wing @ [2, 2] - hinge - right @ [2, -2]) - 3.5,
+                np.linalg.norm(wing @ [-1, 3] - hinge - left @ [-2, -1]) - 3,
+                np.linalg.norm(hinge + left @ [-4, -1] - [-5, 0]) - 6,
+            ]
+        )
+
+    return len(roots(gaps, 5, 1500, angles=slice(3), spread=6))
+
+
 def main():
-    for name, number in [*arms(), *parallel_robots(), ("rssr: forward singularities", rssr())]:
+    others = [("rssr: forward singularities", rssr()), ("baranov_truss: assemblies", baranov_truss())]
+    for name, number in [*arms(), *parallel_robots(), *others]:
         print(f"{name}: {number}")
     print(f"stewart_line: places on x = -0.7, y = 0.1: {stewart_line(-0.7, 0.1)}")
     print(f"stewart_line: places on x = 0.2, y = 0.3: {stewart_line(0.2, 0.3)}")

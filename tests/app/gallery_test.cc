@@ -155,12 +155,13 @@ TEST_F(GalleryCommands, RunTheEntryOfTheDocument) {
 // The value of a line `key: value` of CITATION.cff.
 std::string cited(const std::string& key) {
   std::ifstream file(CORANK_SOURCE_DIR "/CITATION.cff");
-  for (std::string line; std::getline(file, line);)
-    if (const std::size_t at = line.find(key + ": "); at != std::string::npos) {
-      std::string value = line.substr(at + key.size() + 2);
-      std::erase(value, '"');
-      return value;
-    }
+  for (std::string line; std::getline(file, line);) {
+    line.erase(0, line.find_first_not_of(" -"));
+    if (!line.starts_with(key + ": ")) continue;
+    std::string value = line.substr(key.size() + 2);
+    std::erase(value, '"');
+    return value;
+  }
   return "nothing";
 }
 

@@ -103,7 +103,9 @@ TEST(Gallery, HasEntriesWithSourcesWhoseKeysAreInTheReferences) {
     SCOPED_TRACE(entry.name);
     EXPECT_TRUE(titles.insert(entry.title).second);
     EXPECT_GE(entry.source.size(), 20u);
-    if (!entry.key.empty()) EXPECT_THAT(references.str(), HasSubstr("{" + entry.key + ","));
+    if (!entry.key.empty()) {
+      EXPECT_THAT(references.str(), HasSubstr("{" + entry.key + ","));
+    }
   }
 }
 
@@ -214,7 +216,7 @@ TEST_F(Entries, StandOnThePageAndInTheTableWithWhatWasFound) {
   for (const char* text : {"A robot", "MISSED", "corank aspects gallery/robot.cuik --json", "A. Author, A paper, 2001",
                            "1\u202f234 boxes", "x = 1/2;"})
     EXPECT_THAT(page, HasSubstr(text));
-  EXPECT_THAT(gallery_table({result}), HasSubstr("entry   aspects  10         9       MISSED"));
+  EXPECT_THAT(gallery_table({result}), HasSubstr("entry  aspects  10         9       MISSED"));
   EXPECT_THAT(gallery_json({result}, true), HasSubstr("\"failures\": 1"));
   EXPECT_EQ(to_words(sums_of({result})), "1 entry with 1 published number: 0 proven, 1 NOT MET");
 }
