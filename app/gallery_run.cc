@@ -34,12 +34,14 @@ class EntryRun {
       result.findings.push_back(compare(question, run, !entry_.open.empty()));
       result.runs.push_back(run);
     }
-    if (!entry_.report.empty()) draw(entry_.report, "report-run", {folder_ / "report" / "index.html"}, result);
-    for (std::size_t k = 0; k < entry_.pictures.size(); ++k) {
-      const report::GalleryPicture& picture = entry_.pictures[k];
-      if (!picture.command.empty())
-        draw(picture.command, fmt::format("picture-{}", k + 1), {folder_ / picture.file}, result);
-    }
+    if (!entry_.report.empty()) draw(entry_.report, "report-run", {folder_ / "page" / "index.html"}, result);
+    int number = 0;
+    const auto draw_by = [&](const auto& picture) {
+      if (picture.command.empty()) return;
+      draw(picture.command, fmt::format("picture-{}", ++number), {folder_ / picture.file}, result);
+    };
+    std::ranges::for_each(entry_.robots, draw_by);
+    std::ranges::for_each(entry_.pictures, draw_by);
     return result;
   }
 

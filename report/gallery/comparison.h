@@ -5,9 +5,9 @@
 //  - bounds {"at_least", "at_most"} of a number prove it where they are equal;
 //  - bounds {"lo", "hi"} of a value prove it within their width;
 //  - a list stands for the number of its items;
-//  - nothing is proven of an answer that says "complete": false or "proven": false; nor of the number of its boxes or points
-//    where boxes are undecided, pending, partial or may reach beyond the search domain, or where pairs of configurations that
-//    are near to each other were not searched for ("node_distance").
+//  - nothing is proven of an answer that says "complete": false or "proven": false; nor of the number of its boxes or
+//    points where boxes are undecided, pending, partial or may reach beyond the search domain, or where pairs of
+//    configurations that are near to each other were not searched for ("node_distance").
 #pragma once
 
 #include <cstdint>

@@ -40,6 +40,7 @@ struct GalleryPicture {
 
 /// The robot at a configuration of a result: box number `box` of the file, from 0; a negative one counts from the last.
 struct RobotPicture {
+  std::string command;  ///< empty: another command writes the file
   std::string file;
   int box = 0;
   std::string caption;
@@ -63,7 +64,7 @@ struct GalleryEntry {
   std::string derived;  ///< how its numbers were found by other means; empty unless they were
   std::string open;     ///< not empty: why its numbers are not reached
   bool quick = false;   ///< takes seconds; part of the tests
-  std::string report;   ///< a command that writes a report into the folder "report"; empty: none
+  std::string report;   ///< a command that writes a report into the folder "page"; empty: none
   std::vector<GalleryQuestion> questions;
   std::vector<GalleryPicture> pictures;
   std::vector<RobotPicture> robots;

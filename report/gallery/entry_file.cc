@@ -116,7 +116,8 @@ GalleryPicture picture_of(EntryTable& table) {
 }
 
 RobotPicture robot_of(EntryTable& table) {
-  return {table.text("file", true), static_cast<int>(table.number("box", 0)), table.text("caption", true)};
+  return {table.text("command"), table.text("file", true), static_cast<int>(table.number("box", 0)),
+          table.text("caption", true)};
 }
 
 Certainty certainty_of(EntryTable& table, const std::string& derived) {

@@ -53,9 +53,13 @@ std::optional<std::string> robot_data(const fs::path& file, int number) {
     result.cover.self_motions.clear();
     Json values = Json::array();
     for (std::size_t j = 0; j < box.size(); ++j) values.push_back(box[j].mid());
-    const SetView view = set_view(mechanism, std::move(result));
-    return fmt::format(R"({{"model":{},"x":{}}})", page_model(mechanism, symbolic::derive(mechanism), {view}),
-                       values.dump());
+    std::string model;
+    if (mechanism.is_plain_system()) {
+      model = drawing_model(mechanism, result::system_of(mechanism, result));
+    } else {
+      model = page_model(mechanism, symbolic::derive(mechanism), {set_view(mechanism, std::move(result))});
+    }
+    return fmt::format(R"({{"model":{},"x":{}}})", model, values.dump());
   } catch (const result::ResultFileError&) {
     return std::nullopt;
   } catch (const symbolic::ModelError&) {
@@ -116,7 +120,7 @@ TemplateData section_of(const GalleryResult& result, const fs::path& folder, Tem
   TemplateData section{"name", entry.name}, locus = empty_list(), drawn = empty_list();
   section["title"] = entry.title;
   section["about"] = entry.about;
-  section["standing"] = to_string(standing);
+  section["standing"] = standing == Standing::agrees && sums_of({result}).proven > 0 ? "partly proven" : to_string(standing);
   section["look"] = look_of(standing);
   section["rows"] = rows_of(result);
   section["commands"] = commands_of(result, link);
@@ -130,7 +134,7 @@ TemplateData section_of(const GalleryResult& result, const fs::path& folder, Tem
   section["open"] = if_any(entry.open);
   section["model"] = entry.shown_model;
   section["modelText"] = text_of_file(entry.model);
-  section["report"] = if_any(fs::exists(result.folder / "report" / "index.html") ? link + "/report/index.html" : "");
+  section["report"] = if_any(fs::exists(result.folder / "page" / "index.html") ? link + "/page/index.html" : "");
   section["problems"] = list_of("problem", result.problems);
   for (std::size_t k = 0; k < entry.robots.size(); ++k) {
     const auto data = robot_data(result.folder / entry.robots[k].file, entry.robots[k].box);

@@ -21,8 +21,10 @@ function drawRobot(svg) {
   const {model, x} = JSON.parse(document.getElementById(`robot-${svg.dataset.robot}`).textContent);
   const values = coordinateValues(model, x),
     rates = kernelRates(model, x),
-    window = drawingWindow(model, [values]);
-  drawMechanism(svg, model, values, rates, rates ? roomy(window) : window, {unit: 0.8});
+    tight = drawingWindow(model, [values]),
+    view = rates ? roomy(tight) : tight,
+    steep = (view[3] - view[1]) / (view[2] - view[0]); // a tall drawing is scaled to the height that there is
+  drawMechanism(svg, model, values, rates, view, {unit: 0.8 * Math.max(1, steep)});
 }
 
 function showGallery() {

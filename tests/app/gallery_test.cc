@@ -124,7 +124,7 @@ TEST(Gallery, IsFoundBesideTheProgram) {
   const Outcome run = run_corank({"gallery", "three_slider", "-o", folder.file("page")});
   EXPECT_EQ(run.status, 0) << run.out << run.err;
   EXPECT_THAT(run.out, HasSubstr("1 entry with 6 published numbers: 6 proven"));
-  EXPECT_TRUE(std::filesystem::exists(folder.file("page/three_slider/report/index.html")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("page/three_slider/page/index.html")));
   EXPECT_THAT(read_text(folder.file("page/index.html")), HasSubstr("id=\"robot-three_slider-0\""));
 }
 

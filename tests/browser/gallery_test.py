@@ -7,7 +7,9 @@ import page_case
 
 class Gallery(page_case.PageCase):
     def test_each_robot_is_drawn_at_its_configuration(self):
-        parts = self.run_js("[...document.querySelectorAll('svg[data-robot]')].map((svg) => svg.querySelectorAll('*').length)")
+        parts = self.run_js(
+            "[...document.querySelectorAll('svg[data-robot]')].map((svg) => svg.querySelectorAll('*').length)"
+        )
         self.assertEqual(len(parts), 3)
         self.assertGreater(min(parts), 8)
         self.assertFalse(self.run_js("document.querySelector('main').innerHTML.includes('NaN')"))
@@ -25,7 +27,9 @@ class Gallery(page_case.PageCase):
         rows = self.run_js("[...document.querySelectorAll('#numbers tbody tr')].map((row) => row.innerText)")
         self.assertEqual(len(rows), 11)
         self.assertTrue(all("proven" in row for row in rows), rows)
-        missing = self.run_js("[...document.querySelectorAll('#numbers a')].filter((a) => !document.querySelector(a.hash)).length")
+        missing = self.run_js(
+            "[...document.querySelectorAll('#numbers a')].filter((a) => !document.querySelector(a.hash)).length"
+        )
         self.assertEqual(missing, 0)
 
     def test_the_button_changes_the_theme(self):
