@@ -35,11 +35,17 @@ struct GalleryCommand {
   JsonOption json;
 };
 
+bool has_entries(const fs::path& folder) {
+  std::error_code error;
+  return std::ranges::any_of(fs::directory_iterator(folder, error),
+                             [](const fs::directory_entry& item) { return item.path().extension() == ".toml"; });
+}
+
 /// Where the entries are that come with corank: of an installed program, or of the tree that it was built in.
 fs::path own_entries() {
   for (fs::path folder = own_program().parent_path(); folder.has_relative_path(); folder = folder.parent_path())
     for (const char* place : {"share/corank/gallery", "gallery"})
-      if (fs::is_directory(folder / place)) return folder / place;
+      if (has_entries(folder / place)) return folder / place;
   throw UsageError("no gallery is installed with this program; expected --entries FOLDER");
 }
 

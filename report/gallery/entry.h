@@ -38,7 +38,8 @@ struct GalleryPicture {
   std::string caption;
 };
 
-/// The robot at a configuration of a result: box number `box` of the file, from 0; a negative one counts from the last.
+/// The robot at a configuration of a result: its box number `box`, from 0, of those that are proven to hold a solution, if
+/// there are any; a negative number counts from the last.
 struct RobotPicture {
   std::string command;  ///< empty: another command writes the file
   std::string file;

@@ -14,6 +14,7 @@
 #include "corank/result/files/result_file.h"
 #include "corank/result/files/verification.h"
 #include "corank/result/values/result.h"
+#include "corank/result/values/tallies.h"
 #include "corank/symbolic/model/model_error.h"
 
 namespace corank::report {
@@ -38,16 +39,26 @@ std::string look_of(Standing standing) {
   }
 }
 
+/// Those that hold a solution.
+std::vector<Box> proven_boxes(const std::vector<CoverBox>& boxes) {
+  std::vector<Box> list;
+  for (const CoverBox& b : boxes)
+    if (result::is_surely_within(b.verdict)) list.push_back(b.box);
+  return list;
+}
+
 /// The mechanism at a box of a result, for the page's script; nothing where there is no such box or nothing to draw.
 std::optional<std::string> robot_data(const fs::path& file, int number) {
   try {
     result::Result result = result::read_result(file, {.free = false});
     const symbolic::Mechanism mechanism = result::model_of(result);
-    const std::vector<CoverBox>& points = result.cover.points;
-    const std::vector<CoverBox>& boxes = points.empty() ? result.cover.boxes : points;
+    std::vector<Box> boxes = proven_boxes(result.cover.points);
+    if (boxes.empty()) boxes = proven_boxes(result.cover.boxes);
+    if (boxes.empty())
+      for (const CoverBox& b : result.cover.boxes) boxes.push_back(b.box);
     const int place = number < 0 ? static_cast<int>(boxes.size()) + number : number;
     if (mechanism.drawing().points.empty() || place < 0 || place >= static_cast<int>(boxes.size())) return std::nullopt;
-    const Box box = boxes[place].box;
+    const Box& box = boxes[place];
     result.cover.boxes.clear();
     result.cover.points.clear();
     result.cover.self_motions.clear();

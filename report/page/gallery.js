@@ -11,6 +11,13 @@ function kernelRates(model, x) {
   return Object.fromEntries(set.columns.map((column, k) => [names[column], set.scales[k] * x[set.configuration + k]]));
 }
 
+// The drawing without the points that only give a hinge its direction, and are far from the robot.
+function withoutDirections(model) {
+  const {points, parts} = model.drawing;
+  const used = new Set(parts.flatMap(({kind, points: own}) => (kind === "hinge" ? own.slice(0, 1) : own)));
+  return {...model, drawing: {...model.drawing, points: points.filter((_, i) => used.has(i)), parts: []}};
+}
+
 // With room for the arrows, whose longest has a fifth of the width.
 function roomy([x0, y0, x1, y1]) {
   const extra = 0.1 * (x1 - x0);
@@ -21,7 +28,7 @@ function drawRobot(svg) {
   const {model, x} = JSON.parse(document.getElementById(`robot-${svg.dataset.robot}`).textContent);
   const values = coordinateValues(model, x),
     rates = kernelRates(model, x),
-    tight = drawingWindow(model, [values]),
+    tight = drawingWindow(withoutDirections(model), [values]),
     view = rates ? roomy(tight) : tight,
     steep = (view[3] - view[1]) / (view[2] - view[0]); // a tall drawing is scaled to the height that there is
   drawMechanism(svg, model, values, rates, view, {unit: 0.8 * Math.max(1, steep)});
