@@ -15,13 +15,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The model's text, with those of the files beside it that it or the entry's commands name.
+std::string text_of_model(const report::GalleryEntry& entry) {
+  const std::string model = study::read_text(entry.model).text;
+  std::string named = model;
+  for (const report::GalleryQuestion& question : entry.questions) named += question.command + "\n";
+  std::vector<fs::path> files;
+  for (const auto& item : fs::directory_iterator(entry.model.parent_path()))
+    if (item.is_regular_file() && named.find(item.path().filename().string()) != std::string::npos) files.push_back(item);
+  std::ranges::sort(files);
+  std::string all = model;
+  for (const fs::path& file : files) all += "\n" + file.filename().string() + "\n" + study::read_text(file).text;
+  return all;
+}
+
 /// The commands of one entry, in a folder of its own.
 class EntryRun {
  public:
   EntryRun(const report::GalleryEntry& entry, const GalleryOptions& options, const std::atomic<bool>& stop)
       : entry_(entry), options_(options), stop_(stop), folder_(options.folder / entry.name) {
     fs::create_directories(folder_);
-    model_text_ = study::read_text(entry.model).text;
+    model_text_ = text_of_model(entry);
   }
 
   report::GalleryResult run() {

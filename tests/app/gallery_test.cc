@@ -83,6 +83,12 @@ TEST_F(GalleryCommands, TakeAStoredRunWhileNothingHasChanged) {
   EXPECT_THAT(other.out, HasSubstr("(stored)"));
   EXPECT_EQ(other.status, 1);
   write_entry(2);
+  folder_.write("entries/more.cuik", "[SYSTEM EQS]\nx >= -1;\n");
+  folder_.write("entries/robot.cuik", "% more.cuik\n[SYSTEM VARS]\nx : [-1, 1]\n[SYSTEM EQS]\nx^2 = 1/4;\n");
+  EXPECT_THAT(gallery().out, Not(HasSubstr("(stored)")));
+  EXPECT_THAT(gallery().out, HasSubstr("(stored)"));
+  folder_.write("entries/more.cuik", "[SYSTEM EQS]\nx >= 0;\n");  // a file that the model names
+  EXPECT_THAT(gallery().out, Not(HasSubstr("(stored)")));
   write_model("-1");
   const Outcome changed = gallery();
   EXPECT_THAT(changed.out, Not(HasSubstr("(stored)")));
