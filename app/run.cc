@@ -12,6 +12,7 @@
 #include <regex>
 #include <sstream>
 
+#include "corank/app/citation.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/subcommands.h"
 #include "corank/core/check.h"
@@ -165,6 +166,8 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   CLI::App program("corank returns all singularities of a robot mechanism, each with a proof.", "corank");
   program.formatter(std::make_shared<HelpFormat>());
   program.set_version_flag("--version", "corank " + result::version());
+  program.add_flag_callback(
+      "--cite", [] { throw CLI::CallForVersion(citation(), 0); }, "Print how to cite corank, as BibTeX, and exit");
   program.require_subcommand(1);
   program.footer(
       "corank SUBCOMMAND --help explains a subcommand.\n\n"
@@ -178,8 +181,9 @@ int run(const std::string& name, const std::vector<std::string>& args) {
       "  5  of solve: it is proven that the robot cannot be assembled within its ranges\n\n"
       "Example:\n  corank solve models/three_slider.cuik --set forward");
   Action action;
-  for (const auto add : {add_derive, add_solve, add_verify, add_plot, add_report, add_sweep, add_map, add_clearance,
-                         add_tolerance, add_topology, add_aspects, add_path, add_postures, add_cuspidal, add_angles})
+  for (const auto add :
+       {add_derive, add_solve, add_verify, add_plot, add_report, add_sweep, add_map, add_clearance, add_tolerance,
+        add_topology, add_aspects, add_path, add_postures, add_cuspidal, add_angles, add_gallery})
     add(program, action);
   try {
     program.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11 wants them backwards

@@ -41,6 +41,7 @@ find_package(cereal 1.3 REQUIRED)
 find_package(pegtl 3.2 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
+find_path(CORANK_TOML_INCLUDE_DIR toml++/toml.h REQUIRED)  # as headers: Debian's own target links a shared library
 if(CORANK_BUILD_TESTS)
   corank_need(need CORANK_BUILD_TESTS)
   find_package(GTest ${need})

@@ -1,4 +1,4 @@
-# cmake --install: the models and what find_package(corank) reads, besides the program and the libraries with their headers.
+# cmake --install: the models, the gallery and what find_package(corank) reads, besides the program and the libraries with their headers.
 include(CMakePackageConfigHelpers)
 set(CORANK_INSTALL_CMAKE ${CMAKE_INSTALL_LIBDIR}/cmake/corank)
 set(CORANK_INSTALL_MODELS ${CMAKE_INSTALL_DATADIR}/corank/models)
@@ -6,6 +6,9 @@ set(CORANK_INSTALL_MODELS ${CMAKE_INSTALL_DATADIR}/corank/models)
 install(EXPORT corankTargets NAMESPACE corank:: DESTINATION ${CORANK_INSTALL_CMAKE} COMPONENT dev)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/ DESTINATION ${CORANK_INSTALL_MODELS} COMPONENT program
         FILES_MATCHING PATTERN "*.cuik")
+# Beside them: its entries name them by relative paths, and the program finds it from its own place.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/gallery/ DESTINATION ${CMAKE_INSTALL_DATADIR}/corank/gallery COMPONENT program
+        FILES_MATCHING PATTERN "*.cuik" PATTERN "*.toml")
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/corankConfig.cmake.in ${PROJECT_BINARY_DIR}/corankConfig.cmake
                               INSTALL_DESTINATION ${CORANK_INSTALL_CMAKE} PATH_VARS CORANK_INSTALL_MODELS)

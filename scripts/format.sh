@@ -18,7 +18,7 @@ is_there() { # program version
   echo "$1 is missing, or has another version than this script uses" >&2
   if $check; then exit 77; else exit 1; fi
 }
-python=(python bench doc scripts tests)
+python=(python bench doc gallery scripts tests)
 for language in "${languages[@]}"; do
   case $language in
     cpp)

@@ -20,6 +20,7 @@ MPLBACKEND=Agg python3 readme.py | diff - expected
 
 corank solve models/three_slider.cuik --set forward --proof -o forward.h5 | grep "complete: every solution"
 corank verify forward.h5
+corank gallery three_slider -o gallery | grep "6 published numbers: 6 proven"
 python3 -m corank.cluster solve models/three_slider.cuik --set forward --workers 1 -o spread.h5 | grep "complete: every solution"
 gzip -t /usr/share/man/man1/corank.1.gz /usr/share/man/man1/corank-solve.1.gz
 

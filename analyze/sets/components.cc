@@ -231,7 +231,10 @@ Components components(const System& system, const Cover& cover, solve::Control& 
         static_cast<int>(std::ranges::count_if(cover.points, [](const CoverBox& p) { return is_proven(p.verdict); }));
     result.pieces = result.at_least;
     result.piece_of_box.assign(cover.boxes.size(), -1);
-    if (std::cmp_equal(result.at_least, cover.points.size()) && cover.complete())
+    const auto undecided = std::ranges::count_if(cover.boxes, [](const CoverBox& b) { return !is_proven(b.verdict); });
+    if (undecided > 0)  // along a set of larger dimension there are no points to list
+      result.reason = "boxes that are not proven to hold one point";
+    else if (std::cmp_equal(result.at_least, cover.points.size()) && cover.complete())
       result.at_most = result.at_least;
     else
       result.reason = "points that are not proven";

@@ -254,7 +254,8 @@ Topology found(const study::Question& question, Solved& space, const TopologyOpt
     return result;
   }
   if (!result.smooth) {
-    result.reason = result.dimension == 0 ? "a set of points" : "not shown to be a manifold: " + result.components.reason;
+    const bool points = result.dimension == 0 && result.components.at_most;
+    result.reason = points ? "a set of points" : "not shown to be a manifold: " + result.components.reason;
     if (result.dimension == 0 && result.components.at_most) result.euler_characteristic = result.components.at_least;
     return result;
   }

@@ -5,16 +5,19 @@
 
 namespace corank::report {
 
-extern const std::string_view kPageTemplate;    ///< page.html, for mustache
-extern const std::string_view kPageStyle;       ///< page.css
-extern const std::string_view kPageScript;      ///< the modules *.js as one, in the order of CMakeLists.txt
-extern const std::string_view kCardTemplate;    ///< card.html, a set's card on either page
-extern const std::string_view kFamilyTemplate;  ///< family.html, for mustache
-extern const std::string_view kFamilyStyle;     ///< family.css, which adds to page.css
-extern const std::string_view kFamilyScript;    ///< the modules of that page as one
-extern const std::string_view kPathTemplate;    ///< path.html, for mustache
-extern const std::string_view kPathStyle;       ///< path.css, which adds to page.css
-extern const std::string_view kPathScript;      ///< the modules of that page as one
-extern const std::string_view kThree;           ///< three.js as a script that defines THREE
+extern const std::string_view kPageTemplate;     ///< page.html, for mustache
+extern const std::string_view kPageStyle;        ///< page.css
+extern const std::string_view kPageScript;       ///< the modules *.js as one, in the order of CMakeLists.txt
+extern const std::string_view kCardTemplate;     ///< card.html, a set's card on either page
+extern const std::string_view kFamilyTemplate;   ///< family.html, for mustache
+extern const std::string_view kFamilyStyle;      ///< family.css, which adds to page.css
+extern const std::string_view kFamilyScript;     ///< the modules of that page as one
+extern const std::string_view kPathTemplate;     ///< path.html, for mustache
+extern const std::string_view kPathStyle;        ///< path.css, which adds to page.css
+extern const std::string_view kPathScript;       ///< the modules of that page as one
+extern const std::string_view kGalleryTemplate;  ///< gallery.html, for mustache
+extern const std::string_view kGalleryStyle;     ///< gallery.css, which adds to page.css
+extern const std::string_view kGalleryScript;    ///< the modules of that page as one
+extern const std::string_view kThree;            ///< three.js as a script that defines THREE
 
 }  // namespace corank::report

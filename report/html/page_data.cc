@@ -228,4 +228,12 @@ std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Der
   return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
+std::string drawing_model(const symbolic::Mechanism& mechanism, const System& system) {
+  const Json model = {{"model", mechanism.name()},
+                      {"coordinates", coordinates(mechanism, system)},
+                      {"drawing", drawing(mechanism)},
+                      {"sets", Json::array()}};
+  return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 }  // namespace corank::report

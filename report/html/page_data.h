@@ -26,4 +26,8 @@ std::string set_style();
 std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
                        const std::vector<SetView>& views);
 
+/// The coordinates and the drawing alone, without sets: of a plain system, too. `system`: that of a result of this
+/// mechanism.
+std::string drawing_model(const symbolic::Mechanism& mechanism, const System& system);
+
 }  // namespace corank::report

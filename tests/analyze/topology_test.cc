@@ -118,6 +118,17 @@ TEST(Topology, OfADoubleButterflyIsTwoClosedCurves) {
   }
 }
 
+// By the count of its joints either is a set of points, but a curve runs through boxes that stay undecided: two chairs of
+// cyclohexane and its boats are three pieces.
+TEST(Topology, ClaimsNoNumberOfPointsWhereBoxesAreUndecided) {
+  for (const char* name : {"spatial/cyclohexane", "spatial/bennett"}) {
+    const Topology t = of_model(name);
+    EXPECT_EQ(t.components.at_most, std::nullopt) << name;
+    EXPECT_EQ(t.euler_characteristic, std::nullopt) << name;
+    EXPECT_NE(t.reason.find("boxes that are not proven to hold one point"), std::string::npos) << t.reason;
+  }
+}
+
 // Two circles that cross: no manifold.
 TEST(Topology, SaysNothingOfCurvesThatCross) {
   const Topology t = of_text("[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\n(x^2+y^2-1)*((x-1)^2+y^2-1) = 0;\n");

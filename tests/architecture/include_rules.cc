@@ -70,6 +70,7 @@ const std::vector<LibraryRule>& library_rules() {
       {std::regex("^tao/"), {"symbolic", "kinematics"}, false},
       {std::regex("^nlohmann/"), {"result", "analyze", "report", "bench"}, true},
       {std::regex("^kainjow/"), {"report"}, false},
+      {std::regex("^toml\\+\\+/"), {"report"}, false},
       {std::regex("^pybind11/|^Python\\.h"), {"python"}, false},
   };
   return rules;

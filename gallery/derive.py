@@ -1,0 +1,227 @@
+"""Finds numbers of the gallery by other means than corank: Newton's method from random starts, and closed forms, in doubles.
+
+    python3 gallery/derive.py
+
+What it prints is a lower bound of the number of solutions: those that it finds. Entries that rest on it say so in `derived`.
+"""
+
+import numpy as np
+
+RANDOM = np.random.default_rng(7)
+PI = np.pi
+
+
+def roots(residual, unknowns, starts, angles=slice(None), spread=PI):
+    """The distinct roots that Newton's method (with pseudo-inverses of differences) reaches, angles modulo whole turns."""
+    found = []
+    for _ in range(starts):
+        x = RANDOM.uniform(-spread, spread, unknowns)
+        for _ in range(60):
+            f = residual(x)
+            if np.linalg.norm(f) < 1e-11 or not np.all(np.isfinite(f)):
+                break
+            h = 1e-7
+            jacobian = np.array([(residual(x + h * e) - residual(x - h * e)) / (2 * h) for e in np.eye(unknowns)]).T
+            step = np.linalg.lstsq(jacobian, f, rcond=None)[0]
+            x = x - step * min(1, 1 / max(np.linalg.norm(step), 1e-12))
+        if not np.linalg.norm(residual(x)) < 1e-9:
+            continue
+        x[angles] = np.remainder(x[angles] + PI, 2 * PI) - PI
+        turn = np.zeros(unknowns, bool)
+        turn[angles] = True
+        apart = [np.abs(np.where(turn, np.remainder(x - y + PI, 2 * PI) - PI, x - y)).max() for y in found]
+        if not apart or min(apart) > 1e-5:
+            found.append(x)
+    return found
+
+
+def turn(axis, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    i, j = [(1, 2), (2, 0), (0, 1)][axis]
+    matrix = np.eye(3)
+    matrix[i, i] = matrix[j, j] = c
+    matrix[i, j], matrix[j, i] = -s, s
+    return matrix
+
+
+def hand(rows, angles):
+    """Denavit and Hartenberg's standard convention; rows of a, alpha in degrees, d."""
+    place, frame = np.zeros(3), np.eye(3)
+    for (a, alpha, d), q in zip(rows, angles):
+        place = place + frame @ np.array([a * np.cos(q), a * np.sin(q), d])
+        frame = frame @ turn(2, q) @ turn(0, np.radians(alpha))
+    return place, frame
+
+
+def postures(rows, place, z, y, x, starts):
+    frame = turn(2, z) @ turn(1, y) @ turn(0, x)
+
+    def residual(q):
+        p, r = hand(rows, q)
+        return np.concatenate([p - place, (r - frame).ravel()])
+
+    return len(roots(residual, len(rows), starts))
+
+
+def arms():
+    usual = ((0.4, 0.2, 0.5), 0.3, np.radians(40), 0)
+    yield "puma_560: postures", postures(
+        [(0, 90, 0), (0.4318, 0, 0), (0.0203, -90, 0.15005), (0, 90, 0.4318), (0, -90, 0), (0, 0, 0)], *usual, 300
+    )
+    yield "ur5: postures", postures(
+        [(0, 90, 0.089159), (-0.425, 0, 0), (-0.39225, 0, 0), (0, 90, 0.10915), (0, -90, 0.09465), (0, 0, 0.0823)],
+        *usual,
+        300,
+    )
+    yield "gofa: postures", postures(
+        [(0, 90, 0.265), (0.444, 0, 0), (0.11, -90, 0), (0, 90, 0.47), (0.08, -90, 0), (0, 0, 0.101)],
+        (-0.08, 0.01, -0.04),
+        -1.911101,
+        -0.672986,
+        1.508262,
+        1500,
+    )
+    yield "crx: postures", postures(
+        [(0, -90, 0), (0.71, 0, 0), (0, -90, 0), (0, 90, 0.54), (0, -90, 0.15), (0, 0, 0.16)],
+        (-0.26, 0.18, -0.29),
+        0.14845,
+        -0.544541,
+        -0.964748,
+        1500,
+    )
+    yield "sixteen_6r: postures", postures(
+        [(0.3, 90, 0), (1, 1, 0), (0, 90, 0.2), (1.5, 1, 0), (0, 90, 0), (0, 1, 0)],
+        (-1.140165, 0, 0),
+        2.967948,
+        0.689251,
+        1.459702,
+        1500,
+    )
+
+    def orthogonal(q):
+        # link1 along x to the second axis, y; link2 with its offset along that axis; the third axis, -y of link2.
+        second = turn(2, q[0]) @ turn(0, -PI / 2) @ turn(2, q[1])
+        third = second @ turn(0, PI / 2) @ turn(2, q[2])
+        return (
+            turn(2, q[0]) @ np.array([1, 0, 0])
+            + second @ np.array([2, 0, 1])
+            + third @ np.array([1.5, 0, 0])
+            - np.array([2, 0.3, 0.4])
+        )
+
+    yield "orthogonal_3r: postures", len(roots(orthogonal, 3, 300))
+
+
+def corners(radius):
+    return [radius * np.array([np.cos(2 * PI * k / 3), np.sin(2 * PI * k / 3), 0]) for k in range(3)]
+
+
+def parallel_robots():
+    legs = (1.75, 1.98, 2.09)
+
+    def rps(x):  # the hinges' angles: from each leg's end to the next is a side of the platform
+        ends = [
+            a + d * (np.cos(h) * np.array([0, 0, 1]) + np.sin(h) * a / np.linalg.norm(a))
+            for a, d, h in zip(corners(1), legs, x)
+        ]
+        side = 0.6 * np.sqrt(3)
+        return np.array([np.linalg.norm(ends[i] - ends[(i + 1) % 3]) - side for i in range(3)])
+
+    yield "rps_postures: postures", len(roots(rps, 3, 600))
+
+    def delta(x):
+        elbows = [(1 - 0.5 + np.cos(a)) * e - np.array([0, 0, np.sin(a)]) for a, e in zip((1, 1.1, 1.2), corners(1))]
+        return np.array([np.linalg.norm(x - e) - 1.2 for e in elbows])
+
+    yield "delta: positions", len(roots(delta, 3, 200, angles=slice(0)))
+
+    def agile(e):  # the platform's joints are perpendicular to the cranks' ends
+        frame = turn(2, e[2]) @ turn(1, e[1]) @ turn(0, e[0])
+        t = (0.3, 0.5, 0.4)
+        ends = [
+            np.array([0, np.cos(t[0]), np.sin(t[0])]),
+            np.array([np.sin(t[1]), 0, np.cos(t[1])]),
+            np.array([np.cos(t[2]), np.sin(t[2]), 0]),
+        ]
+        return np.array([ends[k] @ frame[:, k] for k in range(3)])
+
+    frames = []
+    for e in roots(agile, 3, 600):
+        frame = turn(2, e[2]) @ turn(1, e[1]) @ turn(0, e[0])
+        if not any(np.abs(frame - f).max() < 1e-5 for f in frames):
+            frames.append(frame)
+    yield "agile_eye: orientations", len(frames)
+
+
+def stewart_line(x, y):
+    """The real roots of the cubic in z by which the six legs' lines are dependent."""
+    base = [np.array([np.cos(k * PI / 12), np.sin(k * PI / 12), 0]) for k in (1, 7, 9, 15, 17, 23)]
+    top = [0.6 * np.array([np.cos(k * PI / 12), np.sin(k * PI / 12), 0]) for k in (3, 5, 11, 13, 19, 21)]
+    frame = turn(2, 0.2) @ turn(1, 0.1) @ turn(0, 0.3)
+
+    def determinant(z):
+        ends = [np.array([x, y, z]) + frame @ b for b in top]
+        return np.linalg.det([np.concatenate([b - a, np.cross(a, b)]) for a, b in zip(base, ends)])
+
+    places = np.linspace(-3.5, 3.5, 9)
+    cubic = np.polyfit(places, [determinant(z) for z in places], 5)
+    assert np.abs(cubic[:2]).max() < 1e-9 * np.abs(cubic).max()  # of degree three
+    return sum(abs(r.imag) < 1e-9 and abs(r) < 4 for r in np.roots(cubic[2:]))
+
+
+def orthoglide(factor):
+    """Bounds of the velocity amplification on the cube, sampled."""
+    low, high = -factor / np.sqrt(6), factor / (3 * np.sqrt(2))
+    bounds = [np.inf, 0]
+    for p in RANDOM.uniform(low, high, (20000, 3)).tolist() + [[low] * 3, [high] * 3]:
+        rods = []
+        for k in range(3):
+            others = [p[j] for j in range(3) if j != k]
+            along = -np.sqrt(1 - others[0] ** 2 - others[1] ** 2)
+            rods.append([along if j == k else p[j] for j in range(3)])
+        inverse = np.array(rods) / np.diag(rods)[:, None]  # the slides' rates from the tool's
+        values = np.linalg.svd(inverse, compute_uv=False)
+        bounds = [min(bounds[0], 1 / values[0]), max(bounds[1], 1 / values[-1])]
+    return bounds
+
+
+def rssr():
+    def dead(x):  # the rod's equation, and its derivative by the rocker's angle
+        t, p = x
+        crank = np.array([0.5 * np.cos(t), 0.5 * np.sin(t), 0.3])
+        rocker = np.array([1, 0.9 * np.cos(p), 0.9 * np.sin(p)])
+        slope = np.array([0, -0.9 * np.sin(p), 0.9 * np.cos(p)])
+        return np.array([(crank - rocker) @ (crank - rocker) - 1.25**2, (crank - rocker) @ slope])
+
+    return len(roots(dead, 2, 400))
+
+
+def baranov_truss():
+    def gaps(x):  # the wing's angle, those of the links right and left, their hinge K
+        wing, right, left = (turn(2, a)[:2, :2] for a in x[:3])
+        hinge = x[3:]
+        return np.array(
+            [
+                *(hinge + right @ [4, -1] - [4 + 6 * np.cos(-2.68), 6 * np.sin(-2.68)]),
+                np.linalg.norm(wing @ [2, 2] - hinge - right @ [2, -2]) - 3.5,
+                np.linalg.norm(wing @ [-1, 3] - hinge - left @ [-2, -1]) - 3,
+                np.linalg.norm(hinge + left @ [-4, -1] - [-5, 0]) - 6,
+            ]
+        )
+
+    return len(roots(gaps, 5, 1500, angles=slice(3), spread=6))
+
+
+def main():
+    others = [("rssr: forward singularities", rssr()), ("baranov_truss: assemblies", baranov_truss())]
+    for name, number in [*arms(), *parallel_robots(), *others]:
+        print(f"{name}: {number}")
+    print(f"stewart_line: places on x = -0.7, y = 0.1: {stewart_line(-0.7, 0.1)}")
+    print(f"stewart_line: places on x = 0.2, y = 0.3: {stewart_line(0.2, 0.3)}")
+    for factor in (0.99, 1, 1.01):
+        low, high = orthoglide(factor)
+        print(f"orthoglide: amplification on the cube times {factor}: {low:.4f} to {high:.4f}")
+
+
+if __name__ == "__main__":
+    main()
