@@ -26,5 +26,6 @@ void add_cuspidal(CLI::App& program, Action& action);
 void add_topology(CLI::App& program, Action& action);
 void add_angles(CLI::App& program, Action& action);
 void add_map(CLI::App& program, Action& action);
+void add_studio(CLI::App& program, Action& action);
 
 }  // namespace corank::app
