@@ -63,7 +63,9 @@ export class Picture {
     this.limits = this.limits.map(([low, high], k) => {
       const [a, b] = former[k];
       if (this.model.partial) return [Math.min(a, low), Math.max(b, high)];
-      return a <= low + 0.04 * (high - low) && b >= high - 0.04 * (high - low) && b - a < 1.35 * (high - low) ? [a, b] : [low, high];
+      return a <= low + 0.04 * (high - low) && b >= high - 0.04 * (high - low) && b - a < 1.35 * (high - low)
+        ? [a, b]
+        : [low, high];
     });
   }
 

@@ -11,6 +11,7 @@ import {Bench} from "./studio_bench.js";
 import {Editor} from "./studio_editor.js";
 import {download, listenToDrops, modelOfFiles, shared, titleOf} from "./studio_files.js";
 import {Link} from "./studio_link.js";
+import {LinkageBoard} from "./studio_linkage.js";
 import {Sliders} from "./studio_sliders.js";
 import {Design} from "./studio_state.js";
 import {followTheme, takeTheme} from "./theme.js";
@@ -28,7 +29,9 @@ class Studio {
     this.hidden = new Set();
     this.times = []; // ms from a request to its first picture
     this.design = new Design(start, (kind) => this.changed(kind));
-    this.editor = new Editor(document.querySelector(".editor"), element("problem"), (text) => this.design.change("text", {text}));
+    this.editor = new Editor(document.querySelector(".editor"), element("problem"), (text) =>
+      this.design.change("text", {text}),
+    );
     this.sliders = new Sliders(
       element("constants"),
       (name, value) => this.setConstant(name, value),
@@ -59,14 +62,16 @@ class Studio {
     element("name").textContent = file;
     element("undo").disabled = this.design.before.length === 0;
     element("redo").disabled = this.design.after.length === 0;
-    if (this.constants && kind !== "text")
+    if (this.constants && kind !== "text" && kind !== "all")
       this.sliders.show(this.constants, this.design.now.constants, this.design.now.ranges);
     if (kind === "ranges") return;
     if (text.trim()) this.link.ask(this.design.request("picture", this.sets()));
   }
 
   sets() {
-    return this.design.now.sets ?? (this.usual.length > 0 ? this.usual : ["cspace", "forward", "inverse", "cspace-singular"]);
+    return (
+      this.design.now.sets ?? (this.usual.length > 0 ? this.usual : ["cspace", "forward", "inverse", "cspace-singular"])
+    );
   }
 
   // --- what the server says
@@ -85,14 +90,13 @@ class Studio {
 
   on_model(event) {
     this.editor.showError(null);
-    document.body.classList.remove("broken");
     this.constants = event.constants;
     this.sliders.show(event.constants, this.design.now.constants, this.design.now.ranges);
     this.available = event.sets;
     this.usual = event.sets.filter(({usual, name}) => usual || name === "requirements").map(({name}) => name);
     element("notices").textContent = event.notices.join(" ");
     this.refused = new Map();
-    this.showSets();
+    if (!this.model) this.showSets();
   }
 
   on_error(event) {
@@ -116,7 +120,8 @@ class Studio {
     const bar = element("share-done");
     bar.hidden = false;
     bar.value = share;
-    element("status").textContent = `${pass === 0 ? "looking at" : "refining"} ${this.titleOf(set)}: ${groupedText(boxes)} boxes`;
+    element("status").textContent =
+      `${pass === 0 ? "looking at" : "refining"} ${this.titleOf(set)}: ${groupedText(boxes)} boxes`;
   }
 
   on_picture(event) {
@@ -140,6 +145,7 @@ class Studio {
       if (this.times.length > 1000) this.times.shift();
     }
     element("status").textContent = pass === 0 ? "coarse boxes …" : "finer boxes …";
+    if (partial) return;
     this.showSets();
     element("findings").innerHTML = sets.map(({name}) => this.cards[name]).join("");
   }
@@ -147,14 +153,18 @@ class Studio {
   on_aspects({aspects, summary}) {
     const cspace = this.model.sets.find(({singular}) => !singular);
     this.model.aspects = aspects && cspace ? new Aspects(cspace, aspects) : null;
-    this.aspectWords = summary ?? "Nothing is known of aspects: they need C-space as a whole, of dimension 1 or 2, and as many inputs as outputs.";
+    this.aspectWords =
+      summary ??
+      "Nothing is known of aspects: they need C-space as a whole, of dimension 1 or 2, and as many inputs as outputs.";
     this.showAspects();
   }
 
   on_done({complete, seconds}) {
+    this.showSets();
     element("share-done").hidden = true;
     const first = this.asked.first === null ? "" : `first picture after ${Math.round(this.asked.first)} ms, `;
-    element("status").textContent = `${first}done after ${seconds.toFixed(2)} s${complete ? ": every solution is in a box" : "; a limit ended a search: what is missing is shown as not searched"}`;
+    element("status").textContent =
+      `${first}done after ${seconds.toFixed(2)} s${complete ? ": every solution is in a box" : "; a limit ended a search: what is missing is shown as not searched"}`;
     if (this.asked.request.want === "report") this.link.ask(this.design.request("picture", this.sets()));
   }
 
@@ -187,10 +197,23 @@ class Studio {
     else {
       for (const [role, portrait] of this.views) portrait.setModel(model, firstOf(order, model, role));
       this.panel.setModel(model, everywhere);
-      this.space?.setModel(model, three);
+      this.showSpaceLater(model, three);
     }
-    this.bench.setModel(model, model.partial ? null : this.typical(samples));
+    this.bench.setModel(model, () => (model.partial ? null : this.typical(samples)));
     if (!this.bench.dragging && this.bench.x) this.bench.end();
+  }
+
+  // The view in space takes longest to draw: it comes when nothing has changed for a while, and shows nothing until then.
+  showSpaceLater(model, three) {
+    if (!this.space) return;
+    element("space").classList.add("waiting");
+    clearTimeout(this.spaceTimer);
+    this.spaceTimer = setTimeout(() => {
+      if (model !== this.model || model.partial) return;
+      this.space.setModel(model, three);
+      this.space.mark(this.panel.current);
+      element("space").classList.remove("waiting");
+    }, 250);
   }
 
   // A configuration to begin with: clear to see, and not next to a singularity.
@@ -295,7 +318,9 @@ class Studio {
     on("redo", () => this.design.redo());
     on("save", () => this.save());
     on("reset", () => this.design.change("reset", {constants: {}}));
-    on("share", () => download(this.design.now.file.replace(/\.[a-z]+$/, "") + ".studio.json", shared(this.design), "application/json"));
+    on("share", () =>
+      download(this.design.now.file.replace(/\.[a-z]+$/, "") + ".studio.json", shared(this.design), "application/json"),
+    );
     on("report", () => this.link.ask({...this.design.request("report", this.sets()), command: this.command()}));
     on("command", () => this.copyCommand());
     on("new", () => this.openGallery());
@@ -303,6 +328,7 @@ class Studio {
     on("draw", () => (element("gallery").close(), element("drawing").showModal()));
     element("file").addEventListener("change", ({target}) => (this.take(target.files), (target.value = "")));
     listenToDrops((files) => this.take(files));
+    this.board = new LinkageBoard(element("drawing"), (text) => this.begin({file: "linkage.cuik", text}));
     element("sets").addEventListener("change", ({target}) => {
       if (target.matches(".toggle")) this.chooseSet(target.value, target.checked);
       if (target.matches(".by-aspect")) this.design.change("aspects", {aspects: target.checked});

@@ -26,8 +26,8 @@ export class Bench {
     return this.model.sets.find(({singular}) => !singular) ?? null;
   }
 
-  // Another model: the mechanism goes to the configuration nearest to where it was, or where there is none to `otherwise`, a vector of
-  // C-space's variables.
+  // Another model: the mechanism goes to the configuration nearest to where it was, or where there is none to `otherwise()`, a vector of
+  // C-space's variables, or null.
   setModel(model, otherwise) {
     const before = this.x && this.variables.map((name, j) => [name, this.x[j]]);
     this.model = model;
@@ -41,7 +41,10 @@ export class Bench {
         if (!(found.residual < 1e-9) || !this.motion.isWithin(found.x)) found = null;
       }
     }
-    if (!found && otherwise) found = this.motion.onto(otherwise);
+    if (!found) {
+      const x = otherwise();
+      if (x) found = this.motion.onto(x);
+    }
     this.x = found?.x ?? null;
     if (found) this.show(found);
   }

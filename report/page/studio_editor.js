@@ -77,6 +77,7 @@ export class Editor {
 
   // {message, line, column}, or null.
   showError(error) {
+    if (!error && !this.error) return;
     this.error = error;
     this.problem.textContent = error ? (error.line ? `line ${error.line}: ${error.message}` : error.message) : "";
     this.problem.classList.toggle("somewhere", Boolean(error?.line));
@@ -87,7 +88,8 @@ export class Editor {
   goTo(error) {
     if (!error?.line) return;
     const lines = this.area.value.split("\n");
-    const at = lines.slice(0, error.line - 1).reduce((sum, line) => sum + line.length + 1, 0) + Math.max(0, error.column - 1);
+    const at =
+      lines.slice(0, error.line - 1).reduce((sum, line) => sum + line.length + 1, 0) + Math.max(0, error.column - 1);
     this.area.focus();
     this.area.setSelectionRange(at, at);
     const height = this.area.scrollHeight / Math.max(1, lines.length);

@@ -175,7 +175,8 @@ export class Motion {
       now = next;
       const then = this.signs(now.x);
       for (const kind of Object.keys(then)) {
-        if (signs[kind] && then[kind] && (then[kind].least < singular || then[kind].sign * signs[kind].sign < 0)) crossed.add(kind);
+        if (signs[kind] && then[kind] && (then[kind].least < singular || then[kind].sign * signs[kind].sign < 0))
+          crossed.add(kind);
       }
       signs = then;
     }

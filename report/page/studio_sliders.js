@@ -4,7 +4,15 @@ import {numberText} from "./values.js";
 // "0.9", "0.9±0.001", "9/10": the value's text and that of its tolerance.
 export function splitValue(text) {
   const at = text.search(/±|\+-/);
-  return at < 0 ? [text.trim(), ""] : [text.slice(0, at).trim(), text.slice(at).replace(/^(±|\+-)/, "").trim()];
+  return at < 0
+    ? [text.trim(), ""]
+    : [
+        text.slice(0, at).trim(),
+        text
+          .slice(at)
+          .replace(/^(±|\+-)/, "")
+          .trim(),
+      ];
 }
 
 const steps = 1000;
@@ -38,7 +46,8 @@ export class Sliders {
   build(constants) {
     this.root.replaceChildren();
     this.rows.clear();
-    if (constants.length === 0) this.root.innerHTML = `<p class="fine">The model has no constants: write lengths under [CONSTANTS].</p>`;
+    if (constants.length === 0)
+      this.root.innerHTML = `<p class="fine">The model has no constants: write lengths under [CONSTANTS].</p>`;
     for (const {name} of constants) {
       const row = document.createElement("div");
       row.className = "constant-row";

@@ -128,8 +128,11 @@ class Browser:
                 return message["result"]
 
     def open(self, path):
+        self.go(pathlib.Path(path).resolve().as_uri())
+
+    def go(self, url):
         before = self.loaded
-        self.call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
+        self.call("Page.navigate", url=url)
         while self.loaded == before:
             self._read()
 
