@@ -155,7 +155,7 @@ class Answer {
     study::Options options;
     options.search.coarser = coarse ? kCoarse : symbolic::definition(set).is_cspace() && seen ? kFineCspace : kFine;
     options.search.threads = limits_.threads;
-    options.search.max_found = seen ? limits_.boxes : report::kPageBoxes;
+    options.search.max_found = (seen ? limits_.boxes : report::kPageBoxes) / found.systems.parts.size() + 1;
     options.digits = coarse ? 0 : report::kPageDigits;
     result::Result result =
         coarse ? searched_only(found.systems, options, control) : study::answer(found.systems, options, control);

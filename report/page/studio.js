@@ -15,7 +15,7 @@ import {LinkageBoard} from "./studio_linkage.js";
 import {Sliders} from "./studio_sliders.js";
 import {Design} from "./studio_state.js";
 import {followTheme, takeTheme} from "./theme.js";
-import {groupedText, htmlText} from "./values.js";
+import {groupedText, htmlText, isAngle} from "./values.js";
 
 const element = (id) => document.getElementById(id);
 
@@ -100,6 +100,7 @@ class Studio {
   }
 
   on_error(event) {
+    this.ended = event.number;
     clearTimeout(this.slow);
     document.body.classList.remove("pending");
     document.body.classList.add("broken");
@@ -159,7 +160,8 @@ class Studio {
     this.showAspects();
   }
 
-  on_done({complete, seconds}) {
+  on_done({number, complete, seconds}) {
+    this.ended = number;
     this.showSets();
     element("share-done").hidden = true;
     const first = this.asked.first === null ? "" : `first picture after ${Math.round(this.asked.first)} ms, `;
@@ -185,7 +187,8 @@ class Studio {
 
   draw() {
     const {model} = this;
-    const order = axisOrder(model);
+    document.querySelector("#portraits .aspects-legend").hidden = !model.aspects;
+    const order = axisOrder(model).sort((a, b) => this.rankOf(model, a) - this.rankOf(model, b));
     const filled = model.sets.filter(({count}) => count > 0);
     const base = filled.find(({singular}) => !singular) ?? filled[0];
     const three = [...new Set([...order, 0, 1, 2].filter((i) => i < model.coordinates.length))].slice(0, 3);
@@ -201,6 +204,11 @@ class Studio {
     }
     this.bench.setModel(model, () => (model.partial ? null : this.typical(samples)));
     if (!this.bench.dragging && this.bench.x) this.bench.end();
+  }
+
+  // Of one role lengths come before angles: a place in the plane is what one looks for first.
+  rankOf({coordinates}, i) {
+    return 2 * ["output", "input", "passive", "auxiliary"].indexOf(coordinates[i].role) + (isAngle(coordinates[i]) ? 1 : 0);
   }
 
   // The view in space takes longest to draw: it comes when nothing has changed for a while, and shows nothing until then.

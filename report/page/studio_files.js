@@ -59,5 +59,8 @@ export function titleOf({name, text}) {
     .filter((line) => line.startsWith("%"))
     .map((line) => line.slice(1).trim())
     .join(" ");
-  return {name: name.replace(/^.*\//, "").replace(/_/g, " "), words: comment.split(/(?<=[a-z)])[.:] /)[0]};
+  return {
+    name: name.replace(/^.*\//, "").replace(/_/g, " "),
+    words: comment.split(/(?<=[a-z)])[.:] /)[0].replace(/ of \.\.\/\S+\.cuik/, ""),
+  };
 }
