@@ -53,9 +53,9 @@ std::vector<std::string> sets_of(const RequestJson& json) {
   return sets;
 }
 
-bool flag(const RequestJson& json, const char* name) {
+bool flag(const RequestJson& json, const char* name, bool usual) {
   const auto at = json.find(name);
-  if (at == json.end()) return false;
+  if (at == json.end()) return usual;
   if (!at->is_boolean()) throw RequestError(std::string("\"") + name + "\" is neither true nor false");
   return at->get<bool>();
 }
@@ -77,7 +77,8 @@ Request parse_request(std::string_view text) {
     request.loops = study::ModelText{string_of(json, "loops", kMostText), request.model.file + ".loops"};
   request.constants = constants_of(json);
   request.sets = sets_of(json);
-  request.aspects = flag(json, "aspects");
+  request.fine = flag(json, "fine", true);
+  request.aspects = flag(json, "aspects", false);
   if (json.contains("command")) request.command = string_of(json, "command", kMostText);
   return request;
 }

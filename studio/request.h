@@ -33,6 +33,7 @@ struct Request {
   std::optional<study::ModelText> loops{};          ///< the companion of a URDF file
   std::vector<result::ConstantOverride> constants;  ///< as -D gives them
   std::vector<std::string> sets;                    ///< names of sets of a mechanism, each once
+  bool fine = true;                                 ///< finer boxes after the coarse ones
   bool aspects = false;                             ///< also those of C-space
   std::string command;                              ///< shown in a report: the command line that makes it
 };

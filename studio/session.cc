@@ -13,6 +13,7 @@
 #include "corank/report/html/page_data.h"
 #include "corank/report/pictures/set_look.h"
 #include "corank/result/files/verification.h"
+#include "corank/solve/search/solve.h"
 #include "corank/study/answer.h"
 #include "corank/study/search_steps.h"
 #include "corank/symbolic/model/evaluate.h"
@@ -63,7 +64,7 @@ class Answer {
     derivation_ = symbolic::derive(question_.model);
     if (request_.want == Request::Want::report) return make_report();
     pass(0);
-    pass(1);
+    if (request_.fine) pass(1);
     if (request_.aspects && !stop_) say_aspects();
     if (!stop_) say({{"event", "done"}, {"complete", complete_}, {"seconds", seconds_since(begin_)}});
   }
@@ -148,7 +149,7 @@ class Answer {
       found.systems =
           study::systems_of(question, control, [&](const study::Question&, const System&) { return !control.ended(); });
       if (found.systems.of_parts.size() < found.systems.parts.size()) {
-        complete_ = complete_ && coarse;
+        complete_ = complete_ && coarse && request_.fine;
         return;
       }
     }
@@ -160,7 +161,7 @@ class Answer {
     result::Result result =
         coarse ? searched_only(found.systems, options, control) : study::answer(found.systems, options, control);
     if (stop_) return;
-    if (!coarse) complete_ = complete_ && result.cover.complete();
+    if (!coarse || !request_.fine) complete_ = complete_ && result.cover.complete();
     System system =
         found.systems.parts.front().part ? result::system_of(question_.model, result) : found.systems.of_parts.front();
     found.view = report::set_view(std::move(result), std::move(system), question_.model.has_own_velocity_equation(),

@@ -291,7 +291,7 @@ class Studio {
     const main = this.available.filter(({name, usual}) => usual || chosen.includes(name) || name === "requirements");
     const rest = this.available.filter((set) => !main.includes(set));
     const open = root.querySelector("details")?.open;
-    const html = `${main.map(item).join("")}<span class="item"><span class="ring"></span>undecided</span><span class="item"><span class="swatch pending"></span>not searched</span><label><input type="checkbox" class="by-aspect"${this.design.now.aspects ? " checked" : ""}>aspects in colour</label><details${open ? " open" : ""}><summary>more sets</summary>${rest.map(item).join("")}</details>`;
+    const html = `${main.map(item).join("")}<span class="item"><span class="ring"></span>undecided</span><span class="item"><span class="swatch pending"></span>not searched</span><label><input type="checkbox" class="by-aspect"${this.design.now.aspects ? " checked" : ""}>aspects in colour</label><label title="Slower robots are quicker to change without"><input type="checkbox" class="fine"${this.design.now.fine ? " checked" : ""}>finer boxes</label><details${open ? " open" : ""}><summary>more sets</summary>${rest.map(item).join("")}</details>`;
     if (html === this.setsHtml) return;
     const focus = document.activeElement?.value;
     this.setsHtml = root.innerHTML = html;
@@ -339,6 +339,7 @@ class Studio {
     this.board = new LinkageBoard(element("drawing"), (text) => this.begin({file: "linkage.cuik", text}));
     element("sets").addEventListener("change", ({target}) => {
       if (target.matches(".toggle")) this.chooseSet(target.value, target.checked);
+      if (target.matches(".fine")) this.design.change("fine", {fine: target.checked});
       if (target.matches(".by-aspect")) this.design.change("aspects", {aspects: target.checked});
     });
     addEventListener("keydown", (event) => {

@@ -12,8 +12,17 @@ export class Design {
     this.kind = null;
   }
 
-  static from({file = "model.cuik", text = "", loops = "", constants = {}, sets = null, ranges = {}, aspects = false}) {
-    return {file, text, loops, constants: {...constants}, sets: sets && [...sets], ranges: {...ranges}, aspects};
+  static from({
+    file = "model.cuik",
+    text = "",
+    loops = "",
+    constants = {},
+    sets = null,
+    ranges = {},
+    aspects = false,
+    fine = true,
+  }) {
+    return {file, text, loops, constants: {...constants}, sets: sets && [...sets], ranges: {...ranges}, aspects, fine};
   }
 
   change(kind, values) {
@@ -49,8 +58,8 @@ export class Design {
 
   // What the server is asked for.
   request(want, sets) {
-    const {file, text, loops, constants, aspects} = this.now;
-    return {want, file, text, ...(loops ? {loops} : {}), constants, sets, aspects};
+    const {file, text, loops, constants, aspects, fine} = this.now;
+    return {want, file, text, ...(loops ? {loops} : {}), constants, sets, aspects, fine};
   }
 
   // The command line that computes the same from the file.

@@ -176,7 +176,10 @@ class Browser:
             )
 
     def screenshot(self, path, whole=False):
-        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
+        """As .png or, smaller, as .webp."""
+        kind = pathlib.Path(path).suffix[1:]
+        more = {"quality": 80} if kind == "webp" else {}
+        answer = self.call("Page.captureScreenshot", format=kind, captureBeyondViewport=whole, **more)
         pathlib.Path(path).write_bytes(base64.b64decode(answer["data"]))
 
     def photograph(self, selector, path):

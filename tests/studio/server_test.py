@@ -181,7 +181,7 @@ class Server(unittest.TestCase):
     def test_a_thousand_malformed_requests_do_no_harm(self):
         good = (
             f"POST /ask?token={self.studio.token}&client=abc&number=1 HTTP/1.1\r\nHost: 127.0.0.1:{self.studio.port}\r\n"
-            f"Content-Length: 12\r\nOrigin: http://127.0.0.1:{self.studio.port}\r\n\r\n{{\"number\":1}}"
+            f'Content-Length: 12\r\nOrigin: http://127.0.0.1:{self.studio.port}\r\n\r\n{{"number":1}}'
         ).encode()
         generator = random.Random(1)
         for k in range(1000):

@@ -1,4 +1,4 @@
-// What a page of the studio is told: first the model, then coarse pictures, then finer ones, and nothing after it was stopped.
+// What a page of the studio is told: first the model, then coarse pictures, then finer ones; nothing after it was stopped.
 #include "corank/studio/session.h"
 
 #include <gmock/gmock.h>
@@ -67,6 +67,14 @@ TEST(Session, SaysTheModelThenCoarsePicturesThenFinerOnes) {
     ASSERT_EQ(boxes.size(), 2u) << set;
     EXPECT_LT(2 * boxes[0], boxes[1]) << set;
   }
+}
+
+TEST(Session, StaysWithCoarseBoxesWhereNoFinerOnesAreAskedFor) {
+  Request asked = request(model_text("dextar.cuik"), {"forward"});
+  asked.fine = false;
+  const std::vector<json> all = events(asked);
+  EXPECT_EQ(counts(all).at("forward").size(), 1u);
+  EXPECT_TRUE(all.back().at("complete"));
 }
 
 TEST(Session, SaysTheConstantsWithTheirValuesAndTolerances) {
