@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 /// The default of σ, multiplied: a first picture is coarse; the finer one has C-space in fewer boxes than a report, since
 /// they are drawn while one looks.
 constexpr double kCoarse = 6, kFine = 1, kFineCspace = 2.5;
-/// A picture goes out when the last one is this old, so that sets that are found quickly come together.
+/// The first picture goes out at once, another one when the last one is this old: sets that are found quickly come together.
 constexpr std::chrono::milliseconds kBetweenPictures{25};
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
@@ -241,7 +241,7 @@ class Answer {
   const std::atomic<bool>& stop_;
   const SessionLimits limits_;
   const Clock::time_point begin_ = Clock::now();
-  Clock::time_point last_picture_ = begin_;
+  Clock::time_point last_picture_{};
   study::Question question_{symbolic::Mechanism("")};
   symbolic::Derivation derivation_;
   std::map<std::string, Found> found_;

@@ -179,8 +179,8 @@ class Studio {
     const banner = element("banner");
     banner.hidden = state === "open";
     this.linkState = state;
-    if (state === "lost") banner.textContent = "The studio’s server does not answer: it has ended, or shows too many windows. Your model is still here: Save keeps it."; // prettier-ignore
-    if (state === "ended") banner.textContent = "Another run of corank studio answers here. Open the address that it prints; your model is still here: Save keeps it."; // prettier-ignore
+    if (state === "lost") banner.textContent = "The studio’s server does not answer: it has ended, or shows too many windows. Your model is still here: Save keeps it.";
+    if (state === "ended") banner.textContent = "Another run of corank studio answers here. Open the address that it prints; your model is still here: Save keeps it.";
   }
 
   // --- pictures
@@ -312,7 +312,7 @@ class Studio {
     list.replaceChildren();
     list.hidden = !this.design.now.aspects;
     if (aspects)
-      aspectLegend(aspects, element("portraits"), (on) => this.views.forEach(([, p]) => p.setByAspect(on)), () => this.redraw()); // prettier-ignore
+      aspectLegend(aspects, element("portraits"), (on) => this.views.forEach(([, p]) => p.setByAspect(on)), () => this.redraw());
     if (this.space) this.space.byAspect = Boolean(aspects);
     list.insertAdjacentHTML("afterbegin", `<span class="item">${htmlText(this.aspectWords.split("\n")[0])}</span>`);
     this.redraw();

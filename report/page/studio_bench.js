@@ -87,12 +87,12 @@ export class Bench {
       return;
     }
     const {distance, set, outputs} = nearest;
-    const unit = outputs.every(({cosine}) => cosine === undefined) && this.model.drawing.unit ? ` ${this.model.drawing.unit}` : ""; // prettier-ignore
+    const unit = outputs.every(({cosine}) => cosine === undefined) && this.model.drawing.unit ? ` ${this.model.drawing.unit}` : "";
     this.nearest = distance;
     this.clearance.innerHTML =
       distance === Infinity
         ? "no singularity at all"
-        : `≥ ${numberText(distance, 3)}${unit} <small>over ${outputs.map(htmlLabel).join(", ")}; nearest: ${set.title.toLowerCase()}, in any mode</small>`; // prettier-ignore
+        : `≥ ${numberText(distance, 3)}${unit} <small>over ${outputs.map(htmlLabel).join(", ")}; nearest: ${set.title.toLowerCase()}, in any mode</small>`;
   }
 
   // Towards a target, at most once a frame.

@@ -243,6 +243,32 @@ class Design(StudioCase):
         self.assertIn(f"corank report dextar.cuik --sets forward,inverse,cspace-singular -D l2={value}", html)
         self.assertIn('id="boxes-forward"', html)
 
+    def test_a_urdf_file_with_its_companion_is_dropped(self):
+        folder = MODELS.parent / "tests" / "data" / "urdf"
+        files = {name: (folder / name).read_text(encoding="utf-8") for name in ("five_bar.urdf", "five_bar.loops")}
+        self.js(
+            f"""(() => {{
+          const data = new DataTransfer();
+          for (const [name, text] of Object.entries({json.dumps(files)})) data.items.add(new File([text], name));
+          document.body.dispatchEvent(new DragEvent("drop", {{dataTransfer: data, bubbles: true, cancelable: true}}));
+        }})()"""
+        )
+        self.until("s.design.now.file === 'five_bar.urdf'")
+        self.settle()
+        self.assertIsNone(self.js("corank.studio.editor.error ?? null"))
+        self.assertGreater(self.js("corank.studio.model.sets.find(({name}) => name === 'forward').count"), 0)
+        self.assertTrue(self.js("corank.studio.command()").startswith("corank report five_bar.urdf --loops five_bar.loops"))
+
+    def test_everything_that_is_operated_has_a_name(self):
+        nameless = self.js(
+            """[...document.querySelectorAll("button, input, select, textarea, [tabindex], [role]")]
+          .filter((e) => e.type !== "file" && !e.closest("[hidden]"))
+          .filter((e) => !(e.getAttribute("aria-label") || e.getAttribute("aria-labelledby") || e.labels?.length || e.title ||
+            e.textContent.trim() || ["toolbar", "status", "group", "alert"].includes(e.getAttribute("role"))))
+          .map((e) => e.outerHTML.slice(0, 120))"""
+        )
+        self.assertEqual(nameless, [])
+
     def test_files_that_are_no_models_are_refused(self):
         self.js("corank.studio.take([new File(['x'], 'a.txt')])")
         self.until("s.editor.error")
@@ -447,4 +473,4 @@ if __name__ == "__main__":
     if not chromium.find():
         print("skipped: there is no Chromium on this machine", file=sys.stderr)
         sys.exit(77)
-    unittest.main(argv=sys.argv[:1], verbosity=1)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=1)
