@@ -1,23 +1,15 @@
-// Puts the studio together: what is typed and slid goes to the server, what comes back goes into the portraits.
-import {Aspects, aspectLegend} from "./aspects.js";
-import {axisOrder, firstOf} from "./axis_choice.js";
+// Puts the studio together: what is typed and slid goes to the server, what comes back goes into the pictures.
 import {liveSet} from "./data.js";
-import {pointOfBox} from "./newton.js";
-import {Panel} from "./panel.js";
-import {Portrait} from "./portrait.js";
-import {clearest, sampleConfigurations} from "./samples.js";
-import {Space} from "./space.js";
-import {Bench} from "./studio_bench.js";
 import {Editor} from "./studio_editor.js";
 import {download, listenToDrops, modelOfFiles, shared, titleOf} from "./studio_files.js";
 import {Link} from "./studio_link.js";
 import {LinkageBoard} from "./studio_linkage.js";
+import {setsLegend} from "./studio_sets.js";
+import {Sights, element} from "./studio_sights.js";
 import {Sliders} from "./studio_sliders.js";
 import {Design} from "./studio_state.js";
 import {followTheme, takeTheme} from "./theme.js";
-import {groupedText, htmlText, isAngle} from "./values.js";
-
-const element = (id) => document.getElementById(id);
+import {groupedText, htmlText} from "./values.js";
 
 class Studio {
   constructor() {
@@ -25,8 +17,8 @@ class Studio {
     const start = JSON.parse(element("start").textContent);
     this.templates = start.templates;
     this.model = null; // what the pictures show; null: nothing yet
+    this.sights = new Sights();
     this.usual = [];
-    this.hidden = new Set();
     this.times = []; // ms from a request to its first picture
     this.design = new Design(start, (kind) => this.changed(kind));
     this.editor = new Editor(document.querySelector(".editor"), element("problem"), (text) =>
@@ -139,7 +131,7 @@ class Studio {
     this.shown = {number, pass, constants: this.asked.request.constants};
     clearTimeout(this.slow);
     document.body.classList.remove("pending", "broken");
-    this.draw();
+    this.sights.draw(this.model);
     if (begins) {
       this.asked.first = performance.now() - this.link.sent;
       this.times.push(this.asked.first);
@@ -152,12 +144,9 @@ class Studio {
   }
 
   on_aspects({aspects, summary}) {
-    const cspace = this.model.sets.find(({singular}) => !singular);
-    this.model.aspects = aspects && cspace ? new Aspects(cspace, aspects) : null;
-    this.aspectWords =
-      summary ??
+    const words =
       "Nothing is known of aspects: they need C-space as a whole, of dimension 1 or 2, and as many inputs as outputs.";
-    this.showAspects();
+    this.sights.showAspects(aspects, (summary ?? words).split("\n")[0]);
   }
 
   on_done({number, complete, seconds}) {
@@ -179,92 +168,12 @@ class Studio {
     const banner = element("banner");
     banner.hidden = state === "open";
     this.linkState = state;
-    if (state === "lost") banner.textContent = "The studio’s server does not answer: it has ended, or shows too many windows. Your model is still here: Save keeps it.";
-    if (state === "ended") banner.textContent = "Another run of corank studio answers here. Open the address that it prints; your model is still here: Save keeps it.";
-  }
-
-  // --- pictures
-
-  draw() {
-    const {model} = this;
-    document.querySelector("#portraits .aspects-legend").hidden = !model.aspects;
-    const order = axisOrder(model).sort((a, b) => this.rankOf(model, a) - this.rankOf(model, b));
-    const filled = model.sets.filter(({count}) => count > 0);
-    const base = filled.find(({singular}) => !singular) ?? filled[0];
-    const three = [...new Set([...order, 0, 1, 2].filter((i) => i < model.coordinates.length))].slice(0, 3);
-    document.body.classList.toggle("undrawn", model.drawing.points.length === 0);
-    if (!this.samples || !model.partial) this.samples = sampleConfigurations(model, base, 80);
-    const {samples} = this;
-    const everywhere = samples.map(({values}) => values);
-    if (!this.panel) this.build(model, order, three, everywhere);
-    else {
-      for (const [role, portrait] of this.views) portrait.setModel(model, firstOf(order, model, role));
-      this.panel.setModel(model, everywhere);
-      this.showSpaceLater(model, three);
-    }
-    this.bench.setModel(model, () => (model.partial ? null : this.typical(samples)));
-    if (!this.bench.dragging && this.bench.x) this.bench.end();
-  }
-
-  // Of one role lengths come before angles: a place in the plane is what one looks for first.
-  rankOf({coordinates}, i) {
-    return 2 * ["output", "input", "passive", "auxiliary"].indexOf(coordinates[i].role) + (isAngle(coordinates[i]) ? 1 : 0);
-  }
-
-  // The view in space takes longest to draw: it comes when nothing has changed for a while, and shows nothing until then.
-  showSpaceLater(model, three) {
-    if (!this.space) return;
-    element("space").classList.add("waiting");
-    clearTimeout(this.spaceTimer);
-    this.spaceTimer = setTimeout(() => {
-      if (model !== this.model || model.partial) return;
-      this.space.setModel(model, three);
-      this.space.mark(this.panel.current);
-      element("space").classList.remove("waiting");
-    }, 250);
-  }
-
-  // A configuration to begin with: clear to see, and not next to a singularity.
-  typical(samples) {
-    const far = samples
-      .map((sample) => ({...sample, distance: this.bench.distanceAt(this.model, pointOfBox(sample.set, sample.box).x)}))
-      .sort((a, b) => b.distance - a.distance);
-    const sample = clearest(this.model, far.slice(0, Math.ceil(far.length / 3)));
-    return sample && Float64Array.from({length: sample.set.configuration}, (_, j) => sample.set.middle(sample.box, j));
-  }
-
-  build(model, order, three, everywhere) {
-    this.panel = new Panel(model, element("panel"), everywhere, (configuration) => {
-      for (const [, portrait] of this.views) portrait.show(configuration);
-      this.space?.mark(configuration);
-      if (configuration) this.bench.take(configuration);
-    });
-    const listener = {
-      hover: () => {},
-      pin: (candidates, place, portrait) => candidates.length > 0 && this.panel.pin(candidates, place, portrait),
-      step: (direction) => this.panel.step(direction),
-      escape: () => this.panel.unpin(),
-    };
-    this.views = ["output", "input"].map((role) => [
-      role,
-      new Portrait(model, element(`${role}-portrait`), firstOf(order, model, role), listener),
-    ]);
-    for (const [, portrait] of this.views) portrait.hidden = portrait.picture.hidden = this.hidden;
-    if (three.length === 3) {
-      this.space = new Space(model, element("space"), three, (set, box) => this.panel.pinBox(set, box));
-      this.space.hidden = this.hidden;
-    }
-    this.bench = new Bench(
-      this.panel,
-      this.views.map(([, portrait]) => portrait),
-      element("panel"),
-    );
-  }
-
-  redraw() {
-    if (!this.model) return;
-    for (const [, portrait] of this.views) portrait.draw();
-    this.space?.build();
+    if (state === "lost")
+      banner.textContent =
+        "The studio’s server does not answer: it has ended, or shows too many windows. Your model is still here: Save keeps it.";
+    if (state === "ended")
+      banner.textContent =
+        "Another run of corank studio answers here. Open the address that it prints; your model is still here: Save keeps it.";
   }
 
   // --- sets
@@ -277,21 +186,8 @@ class Studio {
     const root = element("sets"),
       chosen = this.sets();
     const shown = new Map((this.model?.sets ?? []).map((set) => [set.name, set]));
-    const item = ({name, title}) => {
-      const set = shown.get(name),
-        refused = this.refused?.get(name);
-      const undecided = set ? set.verdicts.filter((v) => this.model.verdicts[v] === "undecided").length : 0;
-      const counts = refused
-        ? `<small title="${htmlText(refused)}">not for this robot</small>`
-        : set && chosen.includes(name)
-          ? `<small>${groupedText(set.count)}${undecided ? ` · <span class="verdict undecided">${groupedText(undecided)} undecided</span>` : ""}</small>`
-          : "";
-      return `<label><input type="checkbox" class="toggle" value="${name}"${chosen.includes(name) ? " checked" : ""}><span class="swatch ${name}"></span>${title}&nbsp;${counts}</label>`;
-    };
-    const main = this.available.filter(({name, usual}) => usual || chosen.includes(name) || name === "requirements");
-    const rest = this.available.filter((set) => !main.includes(set));
     const open = root.querySelector("details")?.open;
-    const html = `${main.map(item).join("")}<span class="item"><span class="ring"></span>undecided</span><span class="item"><span class="swatch pending"></span>not searched</span><label><input type="checkbox" class="by-aspect"${this.design.now.aspects ? " checked" : ""}>aspects in colour</label><label title="Slower robots are quicker to change without"><input type="checkbox" class="fine"${this.design.now.fine ? " checked" : ""}>finer boxes</label><details${open ? " open" : ""}><summary>more sets</summary>${rest.map(item).join("")}</details>`;
+    const html = setsLegend({...this, chosen, shown, open, design: this.design.now});
     if (html === this.setsHtml) return;
     const focus = document.activeElement?.value;
     this.setsHtml = root.innerHTML = html;
@@ -304,18 +200,6 @@ class Studio {
     const sets = on ? [...chosen, name].sort((a, b) => order.indexOf(a) - order.indexOf(b)) : chosen;
     if (sets.length === 0) return this.showSets();
     this.design.change("sets", {sets});
-  }
-
-  showAspects() {
-    const {aspects} = this.model,
-      list = document.querySelector("#portraits .aspects-legend");
-    list.replaceChildren();
-    list.hidden = !this.design.now.aspects;
-    if (aspects)
-      aspectLegend(aspects, element("portraits"), (on) => this.views.forEach(([, p]) => p.setByAspect(on)), () => this.redraw());
-    if (this.space) this.space.byAspect = Boolean(aspects);
-    list.insertAdjacentHTML("afterbegin", `<span class="item">${htmlText(this.aspectWords.split("\n")[0])}</span>`);
-    this.redraw();
   }
 
   // --- buttons and keys
@@ -353,8 +237,7 @@ class Studio {
       event.preventDefault();
     });
     followTheme(() => {
-      this.redraw();
-      this.panel?.picture.redraw();
+      this.sights.redraw();
     });
   }
 
@@ -386,8 +269,7 @@ class Studio {
   }
 
   begin(start) {
-    this.samples = null;
-    if (this.bench) this.bench.x = null;
+    this.sights.forget();
     this.design.begin(start);
   }
 

@@ -87,7 +87,8 @@ export class Bench {
       return;
     }
     const {distance, set, outputs} = nearest;
-    const unit = outputs.every(({cosine}) => cosine === undefined) && this.model.drawing.unit ? ` ${this.model.drawing.unit}` : "";
+    const unit =
+      outputs.every(({cosine}) => cosine === undefined) && this.model.drawing.unit ? ` ${this.model.drawing.unit}` : "";
     this.nearest = distance;
     this.clearance.innerHTML =
       distance === Infinity

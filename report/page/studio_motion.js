@@ -115,7 +115,9 @@ export class Motion {
       const values = coordinateValues(this.model, x);
       return Object.entries(wanted).map(([name, goal]) => {
         const coordinate = this.model.coordinates.find((c) => c.name === name);
-        const off = isAngle(coordinate) ? Math.atan2(Math.sin(goal - values[name]), Math.cos(goal - values[name])) : goal - values[name];
+        const off = isAngle(coordinate)
+          ? Math.atan2(Math.sin(goal - values[name]), Math.cos(goal - values[name]))
+          : goal - values[name];
         return {off, row: this.row(x, {[name]: 1})};
       });
     };
@@ -154,7 +156,11 @@ export class Motion {
         }
         return v;
       });
-      const y = solveRows(along, rows.map(({off}) => off), 1e-4);
+      const y = solveRows(
+        along,
+        rows.map(({off}) => off),
+        1e-4,
+      );
       const step = new Float64Array(now.x.length);
       along.forEach((v, i) => v.forEach((value, k) => (step[k] += y[i] * value)));
       const length = Math.hypot(...step);
@@ -212,7 +218,10 @@ export class Motion {
     ]) {
       const free = coordinates.filter(({role}) => role !== locked);
       if (free.length !== rows.length || free.length === coordinates.length) continue;
-      found[kind] = eliminate(rows.map((row) => free.map((c) => columnOf(row, c))), free.length);
+      found[kind] = eliminate(
+        rows.map((row) => free.map((c) => columnOf(row, c))),
+        free.length,
+      );
     }
     return found;
   }
@@ -252,7 +261,10 @@ export function clearanceOf(sets, x, coordinates) {
       let sum = 0;
       const most = nearest.distance * nearest.distance;
       for (const c of coordinates) {
-        sum += (isAngle(c) ? angleGap(set, box, x, c) : Math.max(0, set.lower(box, c.index) - x[c.index], x[c.index] - set.upper(box, c.index))) ** 2;
+        sum +=
+          (isAngle(c)
+            ? angleGap(set, box, x, c)
+            : Math.max(0, set.lower(box, c.index) - x[c.index], x[c.index] - set.upper(box, c.index))) ** 2;
         if (sum >= most) break;
       }
       if (sum < most) nearest = {distance: Math.sqrt(sum), set, box};

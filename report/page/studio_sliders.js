@@ -53,7 +53,15 @@ export class Sliders {
       row.className = "constant-row";
       row.innerHTML = `<label></label><input type="range" min="0" max="${steps}"><input class="value" size="7"><button type="button" class="more" aria-expanded="false" title="Range and tolerance">⋯</button><div class="limits" hidden><label>from <input class="low" size="6"></label><label>to <input class="high" size="6"></label><label>± <input class="tolerance" size="6"></label><button type="button" class="back" title="As in the text">↺</button></div>`;
       const part = (selector) => row.querySelector(selector);
-      const entry = {row, name, slider: part("input[type=range]"), value: part(".value"), low: part(".low"), high: part(".high"), tolerance: part(".tolerance")};
+      const entry = {
+        row,
+        name,
+        slider: part("input[type=range]"),
+        value: part(".value"),
+        low: part(".low"),
+        high: part(".high"),
+        tolerance: part(".tolerance"),
+      };
       part("label").textContent = name;
       entry.slider.setAttribute("aria-label", name);
       entry.value.setAttribute("aria-label", `${name}, value`);
@@ -84,11 +92,14 @@ export class Sliders {
     const [low, high] = entry.range;
     if (value < low || value > high) entry.range = [Math.min(low, value), Math.max(high, value)];
     const active = document.activeElement;
-    if (active !== entry.slider || !given) entry.slider.value = String(((value - entry.range[0]) / (entry.range[1] - entry.range[0])) * steps);
+    if (active !== entry.slider || !given)
+      entry.slider.value = String(((value - entry.range[0]) / (entry.range[1] - entry.range[0])) * steps);
     entry.slider.setAttribute("aria-valuetext", numberText(value));
     const [text, spread] = given ? splitValue(given) : [decimal(value, [0, Math.abs(value) || 1]), ""];
     if (active !== entry.value) entry.value.value = text;
-    if (active !== entry.tolerance) entry.tolerance.value = spread || (tolerance ? String(Number(((tolerance[1] - tolerance[0]) / 2).toPrecision(4))) : "");
+    if (active !== entry.tolerance)
+      entry.tolerance.value =
+        spread || (tolerance ? String(Number(((tolerance[1] - tolerance[0]) / 2).toPrecision(4))) : "");
     if (active !== entry.low) entry.low.value = decimal(entry.range[0], entry.range);
     if (active !== entry.high) entry.high.value = decimal(entry.range[1], entry.range);
     entry.row.classList.toggle("given", Boolean(given));

@@ -79,8 +79,8 @@ class Design(StudioCase):
         )
         self.assertIn("every solution is in a box", self.js("document.getElementById('status').textContent"))
         # J2, J3, J4 in a row over (0, 0): the locus passes where the picture says.
-        self.assertGreater(self.js("corank.studio.views[0][1].picture.boxesOver('cspace', 0.59, 1.2)"), 0)
-        self.assertEqual(self.js("corank.studio.views[0][1].picture.boxesOver('cspace', 0.59, 1.9)"), 0)
+        self.assertGreater(self.js("corank.studio.sights.views[0][1].picture.boxesOver('cspace', 0.59, 1.2)"), 0)
+        self.assertEqual(self.js("corank.studio.sights.views[0][1].picture.boxesOver('cspace', 0.59, 1.9)"), 0)
 
     def test_finer_boxes_come_where_they_are_wanted(self):
         coarse = self.js("corank.studio.model.sets.map(({count}) => count)")
@@ -122,9 +122,9 @@ class Design(StudioCase):
     def test_no_picture_is_stale_while_a_slider_moves(self):
         pictures = self.js(
             """(async () => {
-          const s = corank.studio, {slider} = s.sliders.rows.get("l2"), seen = [], draw = s.draw;
-          s.draw = function () {
-            draw.call(s);
+          const s = corank.studio, {slider} = s.sliders.rows.get("l2"), seen = [], {sights} = s, draw = sights.draw;
+          sights.draw = function (model) {
+            draw.call(sights, model);
             seen.push({shown: s.shown.number, newest: s.link.number, value: s.shown.constants.l2, asked: s.asked.request.constants.l2});
           };
           for (let k = 0; k < 90; ++k) {
@@ -132,7 +132,7 @@ class Design(StudioCase):
             slider.dispatchEvent(new Event("input"));
             await new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next)));
           }
-          delete s.draw;
+          delete sights.draw;
           return seen;
         })()"""
         )
@@ -279,7 +279,7 @@ class Motion(StudioCase):
     def joint(self, selector=".effector"):
         return self.js(
             f"""(() => {{
-          const box = corank.studio.panel.picture.svg.querySelector({selector!r}).getBoundingClientRect();
+          const box = corank.studio.sights.panel.picture.svg.querySelector({selector!r}).getBoundingClientRect();
           return [box.left + box.width / 2, box.top + box.height / 2];
         }})()"""
         )
@@ -292,19 +292,21 @@ class Motion(StudioCase):
             after = self.joint()
             self.assertAlmostEqual(after[0] - before[0], dx, delta=0.5)
             self.assertAlmostEqual(after[1] - before[1], dy, delta=0.5)
-            self.assertLess(self.js("corank.studio.bench.residualNow"), 1e-9)
-            x = self.js("[...corank.studio.bench.x]")
+            self.assertLess(self.js("corank.studio.sights.bench.residualNow"), 1e-9)
+            x = self.js("[...corank.studio.sights.bench.x]")
             j3x, j3y, c2, s2, c3, s3 = x[:6]
             self.assertAlmostEqual(1.18 + 0.9 * c2 + 0.9 * c3, j3x, delta=1e-9)
             self.assertAlmostEqual(0.9 * s2 + 0.9 * s3, j3y, delta=1e-9)
 
     def signs(self):
-        return self.js("Object.values(corank.studio.bench.motion.signs(corank.studio.bench.x)).map(({sign}) => sign)")
+        return self.js(
+            "Object.values(corank.studio.sights.bench.motion.signs(corank.studio.sights.bench.x)).map(({sign}) => sign)"
+        )
 
     def test_a_path_keeps_its_mode_until_it_meets_a_singularity(self):
         way = self.js(
             """(() => {
-          const {bench} = corank.studio, way = [];
+          const {bench} = corank.studio.sights, way = [];
           for (let k = 0; k <= 200; ++k) {
             const angle = k / 20, goal = {J3x: 0.59 + 0.15 * Math.cos(angle), J3y: 1.25 + 0.1 * Math.sin(angle)};
             const {x, residual, distance, crossed} = bench.moveNow(bench.motion.ofValues(goal));
@@ -318,14 +320,14 @@ class Motion(StudioCase):
             self.assertLess(at["distance"], 1e-9)
             self.assertEqual(at["crossed"], [])
             self.assertEqual(at["signs"], way[1]["signs"])
-        self.js("corank.studio.bench.moveNow(corank.studio.bench.motion.ofValues({J3x: 0.59, J3y: 0.3}))")
+        self.js("corank.studio.sights.bench.moveNow(corank.studio.sights.bench.motion.ofValues({J3x: 0.59, J3y: 0.3}))")
         self.assertIn("forward singularity", self.js("document.getElementById('warning').textContent"))
         self.assertNotEqual(self.signs(), way[1]["signs"])
 
     def test_the_end_of_the_workspace_stops_it(self):
         result = self.js(
             """(() => {
-          const {bench} = corank.studio, {x, residual, distance} = bench.moveNow(bench.motion.ofValues({J3x: 0.59, J3y: 3}));
+          const {bench} = corank.studio.sights, {x, residual, distance} = bench.moveNow(bench.motion.ofValues({J3x: 0.59, J3y: 3}));
           return {y: x[1], residual, distance};
         })()"""
         )
@@ -336,45 +338,45 @@ class Motion(StudioCase):
 
     def test_clearance_is_a_bound_that_corank_proves(self):
         # doc/clearance.md: the radius about (0.5, 1) is in [0.157818, 0.159413].
-        self.js("corank.studio.bench.moveNow(corank.studio.bench.motion.ofValues({J3x: 0.5, J3y: 1}))")
-        nearest = self.js("corank.studio.bench.nearest")
+        self.js("corank.studio.sights.bench.moveNow(corank.studio.sights.bench.motion.ofValues({J3x: 0.5, J3y: 1}))")
+        nearest = self.js("corank.studio.sights.bench.nearest")
         self.assertLess(nearest, 0.159413)
         self.assertGreater(nearest, 0.14)
         self.assertIn("≥ 0.1", self.js("document.getElementById('clearance').textContent"))
 
     def test_modes_are_switched_at_the_same_place(self):
         self.js(
-            "(() => { const b = corank.studio.bench; b.begin(); b.moveNow(b.motion.ofValues({J3x: 0.59, J3y: 1})); b.end(); })()"
+            "(() => { const b = corank.studio.sights.bench; b.begin(); b.moveNow(b.motion.ofValues({J3x: 0.59, J3y: 1})); b.end(); })()"
         )
-        self.assertEqual(self.js("corank.studio.panel.candidates.filter(({set}) => !set.singular).length"), 4)
+        self.assertEqual(self.js("corank.studio.sights.panel.candidates.filter(({set}) => !set.singular).length"), 4)
         modes = set()
-        for k in range(self.js("corank.studio.panel.candidates.length")):
+        for k in range(self.js("corank.studio.sights.panel.candidates.length")):
             self.js(f"document.querySelectorAll('#panel .mode')[{k}].click()")
-            self.assertLess(self.js("corank.studio.bench.residualNow"), 1e-9)
-            if self.js(f"!corank.studio.panel.candidates[{k}].set.singular"):
-                x = self.js("[...corank.studio.bench.x]")
+            self.assertLess(self.js("corank.studio.sights.bench.residualNow"), 1e-9)
+            if self.js(f"!corank.studio.sights.panel.candidates[{k}].set.singular"):
+                x = self.js("[...corank.studio.sights.bench.x]")
                 self.assertAlmostEqual(x[0], 0.59, delta=1e-9)
                 self.assertAlmostEqual(x[1], 1, delta=1e-9)
                 modes.add(tuple(round(value, 6) for value in x))
         self.assertEqual(len(modes), 4)
 
     def test_the_mechanism_keeps_its_place_while_the_model_changes(self):
-        before = self.js("[...corank.studio.bench.x]")
+        before = self.js("[...corank.studio.sights.bench.x]")
         signs = self.signs()
         self.slide("l2", 350)
         self.settle()
-        after = self.js("[...corank.studio.bench.x]")
+        after = self.js("[...corank.studio.sights.bench.x]")
         self.assertNotEqual(before, after)
         self.assertLess(max(abs(a - b) for a, b in zip(before, after)), 0.3)
         self.assertEqual(self.signs(), signs)
-        self.assertLess(self.js("corank.studio.bench.residualNow"), 1e-9)
+        self.assertLess(self.js("corank.studio.sights.bench.residualNow"), 1e-9)
 
     def test_the_keyboard_moves_it_too(self):
-        before = self.js("[...corank.studio.bench.x]")
-        self.js("corank.studio.views[0][1].frame.focus()")
+        before = self.js("[...corank.studio.sights.bench.x]")
+        self.js("corank.studio.sights.views[0][1].frame.focus()")
         for kind in ("keyDown", "keyUp"):
             self.browser.call("Input.dispatchKeyEvent", type=kind, key="ArrowRight", modifiers=1)
-        after = self.js("[...corank.studio.bench.x]")
+        after = self.js("[...corank.studio.sights.bench.x]")
         self.assertGreater(after[0], before[0])
         self.assertAlmostEqual(after[1], before[1], delta=1e-9)
 
