@@ -10,7 +10,7 @@ namespace {
 
 using RequestJson = nlohmann::ordered_json;
 
-constexpr std::size_t kMostText = 1 << 20, kMostName = 200, kMostConstants = 200;
+constexpr std::size_t kMostText = 1 << 20, kMostName = 200, kMostLine = 1000, kMostConstants = 200;
 
 const RequestJson& part(const RequestJson& json, const char* name) {
   const auto at = json.find(name);
@@ -53,6 +53,28 @@ std::vector<std::string> sets_of(const RequestJson& json) {
   return sets;
 }
 
+Request::Colours colours_of(const RequestJson& json) {
+  if (!json.contains("colours")) return Request::Colours::none;
+  const std::string text = string_of(json, "colours", kMostName);
+  if (text.empty()) return Request::Colours::none;
+  if (text == "aspects") return Request::Colours::aspects;
+  if (text == "requirements") return Request::Colours::requirements;
+  throw RequestError("\"colours\" is neither \"aspects\" nor \"requirements\"");
+}
+
+std::vector<std::string> require_of(const RequestJson& json) {
+  std::vector<std::string> texts;
+  const auto at = json.find("require");
+  if (at == json.end()) return texts;
+  if (!at->is_array() || at->size() > kMostConstants) throw RequestError("\"require\" is no list of requirements");
+  for (const RequestJson& item : *at) {
+    if (!item.is_string() || item.get_ref<const std::string&>().size() > kMostLine)
+      throw RequestError("\"require\": a requirement is a line of text");
+    texts.push_back(item.get<std::string>());
+  }
+  return texts;
+}
+
 bool flag(const RequestJson& json, const char* name, bool usual) {
   const auto at = json.find(name);
   if (at == json.end()) return usual;
@@ -78,7 +100,8 @@ Request parse_request(std::string_view text) {
   request.constants = constants_of(json);
   request.sets = sets_of(json);
   request.fine = flag(json, "fine", true);
-  request.aspects = flag(json, "aspects", false);
+  request.colours = colours_of(json);
+  request.require = require_of(json);
   if (json.contains("command")) request.command = string_of(json, "command", kMostText);
   return request;
 }

@@ -27,6 +27,12 @@ struct Request {
     report    ///< the page that corank report writes
   };
 
+  enum class Colours {
+    none,
+    aspects,      ///< by aspects
+    requirements  ///< by whether the requirements are met
+  };
+
   std::uint64_t number = 0;  ///< every line of the answer has it
   Want want = Want::picture;
   study::ModelText model;                           ///< without a folder: it names no other files
@@ -34,8 +40,9 @@ struct Request {
   std::vector<result::ConstantOverride> constants;  ///< as -D gives them
   std::vector<std::string> sets;                    ///< names of sets of a mechanism, each once
   bool fine = true;                                 ///< finer boxes after the coarse ones
-  bool aspects = false;                             ///< also those of C-space
-  std::string command;                              ///< shown in a report: the command line that makes it
+  Colours colours = Colours::none;                  ///< of C-space, after the finest picture
+  std::vector<std::string> require{};               ///< as --require gives them
+  std::string command{};                            ///< shown in a report: the command line that makes it
 };
 
 /// Throws RequestError where the text is no such JSON, or a part of it is missing, too long, or of another kind.

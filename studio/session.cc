@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "corank/analyze/paths/standing.h"
+#include "corank/core/requirement.h"
 #include "corank/report/html/live_page.h"
 #include "corank/report/html/page.h"
 #include "corank/report/html/page_data.h"
@@ -54,6 +56,7 @@ class Answer {
   void run() {
     say({{"event", "begun"}});
     study::Model model = study::parse_model(request_.model, request_.constants, request_.loops);
+    study::require(request_.require, model);
     if (stop_) return;
     if (model.mechanism.is_plain_system())
       throw symbolic::ModelError({model.mechanism.name(), 0, 0}, "the model names no inputs and outputs",
@@ -65,7 +68,8 @@ class Answer {
     if (request_.want == Request::Want::report) return make_report();
     pass(0);
     if (request_.fine) pass(1);
-    if (request_.aspects && !stop_) say_aspects();
+    if (request_.colours == Request::Colours::aspects && !stop_) say_aspects();
+    if (request_.colours == Request::Colours::requirements && !stop_) say_requirements();
     if (!stop_) say({{"event", "done"}, {"complete", complete_}, {"seconds", seconds_since(begin_)}});
   }
 
@@ -201,12 +205,37 @@ class Answer {
     const auto aspects =
         report::page_aspects(question_, results, limits_.threads, fmt::format("{:g} seconds", limits_.seconds), control);
     if (stop_) return;
-    Json event = {{"event", "aspects"}, {"summary", nullptr}, {"aspects", nullptr}};
-    if (aspects) {
-      event["summary"] = aspects->summary;
-      event["aspects"] = Json::parse(report::aspects_json(*aspects));
+    const std::string unknown =
+        "Nothing is known of aspects: they need C-space as a whole, of dimension 1 or 2, and as many inputs as outputs.";
+    say_colours(aspects ? aspects->summary : unknown, aspects ? report::aspects_json(*aspects) : "null");
+  }
+
+  void say_colours(const std::string& summary, const std::string& colours) const {
+    say({{"event", "colours"}, {"summary", summary}, {"colours", Json::parse(colours)}});
+  }
+
+  /// Of each box of C-space: are the requirements met in all of it, in none of it, or is that open?
+  void say_requirements() {
+    const auto of = [](const auto& entry) { return symbolic::definition(entry.first).is_cspace() && entry.second.view; };
+    const auto cspace = std::ranges::find_if(found_, of);
+    if (question_.model.requirements().empty() || cspace == found_.end())
+      return say_colours("There are no requirements, or no C-space.", "null");
+    try {
+      const std::vector<CoverBox>& boxes = cspace->second.view->drawn();
+      study::Question question = question_;
+      question.set = SingularitySet::cspace;
+      const std::vector<Standing> standings =
+          analyze::standings_in(question.model, study::equations(question), boxes, [this] { return stop_.load(); });
+      if (stop_) return;
+      report::PageAspects shades;
+      shades.labels = {"met", "not met", "open"};
+      for (const Standing standing : standings) shades.places.push_back(static_cast<int>(standing));
+      Json colours = Json::parse(report::aspects_json(shades));
+      colours["colours"] = {"#4f9f78", "#9a6a9f", "#dcae3a"};
+      say_colours("Requirements, proven box by box:", colours.dump());
+    } catch (const symbolic::ModelError& error) {
+      say_colours(error.what(), "null");
     }
-    say(event);
   }
 
   void make_report() {

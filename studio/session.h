@@ -11,7 +11,8 @@
 //   refused   "set", "message": this set is none of the model's
 //   progress  "set", "stage", "share" of the search domain that is done with, "boxes" processed
 //   picture   "pass" (0: coarse), "model": as report::live_model() gives it, with the sets that are new
-//   aspects   "aspects": as report::aspects_json() gives them, of the last picture's C-space; "summary"
+//   colours   "colours": of the boxes of the last picture's C-space, as report::aspects_json() gives them, or null;
+//             "summary": what is known, in words
 //   report    "html": the page of corank report
 //   done      "complete": no limit has ended a search, "seconds"
 #pragma once

@@ -50,7 +50,10 @@ class Studio {
   // The design is another one.
   changed(kind) {
     const {file, text} = this.design.now;
-    if (kind === "all") this.editor.text = text;
+    if (kind === "all") {
+      this.editor.text = text;
+      element("require").value = this.design.now.require.join("; ");
+    }
     element("name").textContent = file;
     element("undo").disabled = this.design.before.length === 0;
     element("redo").disabled = this.design.after.length === 0;
@@ -88,6 +91,9 @@ class Studio {
     this.usual = event.sets.filter(({usual, name}) => usual || name === "requirements").map(({name}) => name);
     element("notices").textContent = event.notices.join(" ");
     this.refused = new Map();
+    // With requirements there is a set more.
+    const {want, sets} = this.asked.request;
+    if (want === "picture" && this.sets().join() !== sets.join()) this.link.ask(this.design.request("picture", this.sets()));
     if (!this.model) this.showSets();
   }
 
@@ -143,10 +149,8 @@ class Studio {
     element("findings").innerHTML = sets.map(({name}) => this.cards[name]).join("");
   }
 
-  on_aspects({aspects, summary}) {
-    const words =
-      "Nothing is known of aspects: they need C-space as a whole, of dimension 1 or 2, and as many inputs as outputs.";
-    this.sights.showAspects(aspects, (summary ?? words).split("\n")[0]);
+  on_colours({colours, summary}) {
+    this.sights.showColours(colours, summary.split("\n")[0]);
   }
 
   on_done({number, complete, seconds}) {
@@ -221,10 +225,14 @@ class Studio {
     element("file").addEventListener("change", ({target}) => (this.take(target.files), (target.value = "")));
     listenToDrops((files) => this.take(files));
     this.board = new LinkageBoard(element("drawing"), (text) => this.begin({file: "linkage.cuik", text}));
+    element("require").addEventListener("change", ({target}) => {
+      const require = target.value.split(";").map((line) => line.trim());
+      this.design.change("require", {require: require.filter(Boolean)});
+    });
     element("sets").addEventListener("change", ({target}) => {
       if (target.matches(".toggle")) this.chooseSet(target.value, target.checked);
       if (target.matches(".fine")) this.design.change("fine", {fine: target.checked});
-      if (target.matches(".by-aspect")) this.design.change("aspects", {aspects: target.checked});
+      if (target.matches(".colours")) this.design.change("colours", {colours: target.value});
     });
     addEventListener("keydown", (event) => {
       if (!(event.ctrlKey || event.metaKey)) return;

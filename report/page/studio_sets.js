@@ -21,10 +21,14 @@ export function setsLegend({available, chosen, shown, refused, model, open, desi
   const rest = available.filter((set) => !main.includes(set));
   const choice = (kind, on, words, title) =>
     `<label title="${title}"><input type="checkbox" class="${kind}"${on ? " checked" : ""}>${words}</label>`;
+  const ways = {"": "in one colour", aspects: "by aspects", requirements: "by requirements"};
+  const colours = Object.entries(ways)
+    .map(([value, words]) => `<option value="${value}"${design.colours === value ? " selected" : ""}>${words}</option>`)
+    .join("");
   return [
     ...main.map(item),
     '<span class="item"><span class="ring"></span>undecided</span><span class="item"><span class="swatch pending"></span>not searched</span>',
-    choice("by-aspect", design.aspects, "aspects in colour", "Pieces of C-space between singularities"),
+    `<label>C-space&nbsp;<select class="colours">${colours}</select></label>`,
     choice("fine", design.fine, "finer boxes", "Without them a slow robot is changed more quickly"),
     `<details${open ? " open" : ""}><summary>more sets</summary>${rest.map(item).join("")}</details>`,
   ].join("");

@@ -1,5 +1,5 @@
 // The pictures of a model: portraits, the view in space, and the mechanism.
-import {Aspects, aspectLegend} from "./aspects.js";
+import {Aspects, aspectItems} from "./aspects.js";
 import {axisOrder, firstOf} from "./axis_choice.js";
 import {pointOfBox} from "./newton.js";
 import {Panel} from "./panel.js";
@@ -97,17 +97,15 @@ export class Sights {
     return sample && Float64Array.from({length: sample.set.configuration}, (_, j) => sample.set.middle(sample.box, j));
   }
 
-  // `aspects` as the server has them, or null; `words`: what is known of them.
-  showAspects(aspects, words) {
+  // Colours of C-space's boxes, as the server has them, or null; `words`: what is known.
+  showColours(colours, words) {
     const {model} = this,
       cspace = model.sets.find(({singular}) => !singular),
       list = document.querySelector("#portraits .aspects-legend");
-    model.aspects = aspects && cspace ? new Aspects(cspace, aspects) : null;
+    model.aspects = colours && cspace ? new Aspects(cspace, colours) : null;
     list.replaceChildren();
-    if (model.aspects) {
-      const inPlane = (on) => this.views.forEach(([, portrait]) => portrait.setByAspect(on));
-      aspectLegend(model.aspects, element("portraits"), inPlane, () => this.redraw());
-    }
+    if (model.aspects) aspectItems(model.aspects, list, () => this.redraw());
+    for (const [, portrait] of this.views) portrait.setByAspect(Boolean(model.aspects));
     list.hidden = false;
     if (this.space) this.space.byAspect = Boolean(model.aspects);
     list.insertAdjacentHTML("afterbegin", `<span class="item">${htmlText(words)}</span>`);

@@ -19,10 +19,21 @@ export class Design {
     constants = {},
     sets = null,
     ranges = {},
-    aspects = false,
+    colours = "",
+    require = [],
     fine = true,
   }) {
-    return {file, text, loops, constants: {...constants}, sets: sets && [...sets], ranges: {...ranges}, aspects, fine};
+    return {
+      file,
+      text,
+      loops,
+      constants: {...constants},
+      sets: sets && [...sets],
+      ranges: {...ranges},
+      colours,
+      require: [...require],
+      fine,
+    };
   }
 
   change(kind, values) {
@@ -58,17 +69,18 @@ export class Design {
 
   // What the server is asked for.
   request(want, sets) {
-    const {file, text, loops, constants, aspects, fine} = this.now;
-    return {want, file, text, ...(loops ? {loops} : {}), constants, sets, aspects, fine};
+    const {file, text, loops, constants, colours, require, fine} = this.now;
+    return {want, file, text, ...(loops ? {loops} : {}), constants, sets, colours, require, fine};
   }
 
   // The command line that computes the same from the file.
   command(subcommand, sets, usual) {
-    const {file, loops, constants} = this.now;
+    const {file, loops, constants, require} = this.now;
     const quoted = (word) => (/^[\w./=:+-]+$/.test(word) ? word : `'${word.replace(/'/g, `'\\''`)}'`);
     const words = ["corank", subcommand, quoted(file)];
     if (loops) words.push("--loops", quoted(`${file.replace(/\.urdf$/, "")}.loops`));
     if (sets && sets.join() !== usual.join()) words.push("--sets", sets.join());
+    for (const text of require) words.push("--require", quoted(text));
     for (const [name, value] of Object.entries(constants)) words.push("-D", quoted(`${name}=${value}`));
     return words.join(" ");
   }

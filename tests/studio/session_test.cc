@@ -155,10 +155,28 @@ TEST(Session, MakesTheReport) {
 
 TEST(Session, ColoursAspectsWhereTheyAreAskedFor) {
   Request asked = request(model_text("planar/four_bar_crank_rocker.cuik"), {"cspace", "inverse"});
-  asked.aspects = true;
+  asked.colours = Request::Colours::aspects;
   const std::vector<json> all = events(asked);
-  EXPECT_THAT(kinds(all), ElementsAre("begun", "model", "picture", "aspects", "done"));
-  EXPECT_EQ(all[all.size() - 2].at("aspects").at("labels").size(), 4u);  // each of the two curves is cut at two points
+  EXPECT_THAT(kinds(all), ElementsAre("begun", "model", "picture", "colours", "done"));
+  EXPECT_EQ(all[all.size() - 2].at("colours").at("labels").size(), 4u);  // each of the two curves is cut at two points
+}
+
+TEST(Session, ShadesWhereRequirementsAreMet) {
+  Request asked = request(model_text("dextar.cuik"), {"cspace"});
+  asked.fine = false;
+  asked.require = {"J3y >= 0"};
+  asked.colours = Request::Colours::requirements;
+  const std::vector<json> all = events(asked);
+  ASSERT_THAT(kinds(all), ElementsAre("begun", "model", "picture", "colours", "done"));
+  const json colours = all[all.size() - 2].at("colours");
+  EXPECT_THAT(colours.at("labels"), ElementsAre("met", "not met", "open"));
+  // Two bytes for each box, in base64.
+  const std::size_t boxes = counts(all).at("cspace").back();
+  EXPECT_EQ(colours.at("of").get<std::string>().size(), (2 * boxes + 2) / 3 * 4);
+  asked.require = {"J3y >="};
+  EXPECT_EQ(events(asked).back().at("event"), "error");
+  asked.require.clear();
+  EXPECT_TRUE(events(asked)[events(asked).size() - 2].at("colours").is_null());
 }
 
 TEST(Session, ReadsEveryTemplate) {
@@ -199,7 +217,7 @@ TEST(Request, IsRefusedWhereItMakesNoSense) {
         with("{}", "[]"), with("{}", "{\"l\":1}"), with("{}", "{\"l\":\"" + std::string(300, '1') + "\"}"),
         with("[\"forward\"]", "\"forward\""), with("[\"forward\"]", "[\"nothing\"]"), with("[\"forward\"]", "[1]"),
         with("\"x\"", "\"" + std::string((1 << 20) + 1, 'x') + "\""), with("\"x\"", "\"\\u0000\""),
-        with("\"sets\"", "\"aspects\":1,\"sets\"")})
+        with("\"sets\"", "\"fine\":1,\"sets\"")})
     EXPECT_THROW(parse_request(bad), RequestError) << bad.substr(0, 200);
 }
 

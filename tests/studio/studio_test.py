@@ -197,10 +197,47 @@ class Design(StudioCase):
         )
 
     def test_aspects_in_colour(self):
-        self.js("document.querySelector('#sets .by-aspect').click()")
+        self.colour("aspects")
         self.settle()
         self.assertEqual(self.js("corank.studio.model.aspects.labels.length"), 10)
         self.assertEqual(self.js("document.querySelectorAll('#portraits input.aspect').length"), 10)
+
+    def colour(self, by):
+        self.js(
+            f"""(() => {{
+          const select = document.querySelector("#sets .colours");
+          select.value = {by!r};
+          select.dispatchEvent(new Event("change", {{bubbles: true}}));
+        }})()"""
+        )
+
+    def test_requirements_are_shaded(self):
+        self.js(
+            """(() => {
+          const field = document.getElementById("require");
+          field.value = "J3y >= 0; J3x <= 3";
+          field.dispatchEvent(new Event("change"));
+        })()"""
+        )
+        self.colour("requirements")
+        self.settle()
+        wrong = self.js(
+            """(() => {
+          const {set, of, labels} = corank.studio.model.aspects, y = set.variables.indexOf("J3y"), wrong = [];
+          const counts = {"met": 0, "not met": 0, "open": 0};
+          for (let box = 0; box < set.count; ++box) {
+            const label = labels[of[box] - 1], met = set.lower(box, y) >= 0, violated = set.upper(box, y) < 0;
+            ++counts[label];
+            if ((violated && label === "met") || (met && label === "not met")) wrong.push(box);
+          }
+          return {wrong, counts};
+        })()"""
+        )
+        self.assertEqual(wrong["wrong"], [])
+        self.assertGreater(wrong["counts"]["met"], 1000)
+        self.assertGreater(wrong["counts"]["not met"], 1000)
+        self.assertIn("--require 'J3y >= 0' --require 'J3x <= 3'", self.js("corank.studio.command()"))
+        self.assertIn("requirements", self.js("corank.studio.model.sets.map(({name}) => name)"))
 
     def test_what_is_shared_opens_as_it_was(self):
         self.slide("l2", 700)
