@@ -75,7 +75,8 @@ void Window::start_process() {
   if (process_ == 0) {
     ::dup2(ends[1], 3);
     ::close_range(4, ~0U, 0);
-    std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGINT, SIG_IGN);  // Ctrl-C in a terminal is for this program, which ends the process
+    std::signal(SIGTERM, SIG_DFL);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(0);
     work(3, limits_);
