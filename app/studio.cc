@@ -14,7 +14,7 @@
 #include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/html/live_page.h"
-#include "corank/result/files/result_file.h"
+#include "corank/result/values/words.h"
 #include "corank/studio/template_models.h"
 
 extern char** environ;
