@@ -183,7 +183,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   Action action;
   for (const auto add :
        {add_derive, add_solve, add_verify, add_plot, add_report, add_sweep, add_map, add_clearance, add_tolerance,
-        add_topology, add_aspects, add_path, add_postures, add_cuspidal, add_angles, add_gallery})
+        add_topology, add_aspects, add_path, add_postures, add_cuspidal, add_angles, add_gallery, add_studio})
     add(program, action);
   try {
     program.parse(std::vector<std::string>(args.rbegin(), args.rend()));  // CLI11 wants them backwards

@@ -27,5 +27,6 @@ void add_topology(CLI::App& program, Action& action);
 void add_angles(CLI::App& program, Action& action);
 void add_map(CLI::App& program, Action& action);
 void add_gallery(CLI::App& program, Action& action);
+void add_studio(CLI::App& program, Action& action);
 
 }  // namespace corank::app

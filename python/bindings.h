@@ -15,6 +15,7 @@ void bind_solve(py::module_& module);
 void bind_analyses(py::module_& module);
 void bind_maps(py::module_& module);
 void bind_report(py::module_& module);
+void bind_studio(py::module_& module);
 void bind_cluster(py::module_& module);
 
 }  // namespace corank::python

@@ -54,6 +54,7 @@ PYBIND11_MODULE(_corank, module) {
   bind_analyses(module);
   bind_maps(module);
   bind_report(module);
+  bind_studio(module);
   bind_cluster(module);
   py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_the_abandoned));
 }

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Makes doc/images/ anew: photographs of Dextar's report, of its family's page, of a path's page, and of the report of the tutorial on parts, in a headless
-# Chromium.
+# Makes doc/images/ anew: photographs of Dextar's report, of its family's page, of a path's page, of the report of the tutorial on parts, and of five
+# robots in the studio, in a headless Chromium.
 source "$(dirname "${BASH_SOURCE[0]}")/build.sh"
 build_release "" corank
 work=$(mktemp -d)
@@ -33,4 +33,25 @@ with Browser(1240, 1000) as browser:
     browser.open(pathlib.Path(page).parent / "five_bar/index.html")
     browser.drawn()
     browser.photograph(".stage", folder / "five_bar_parts.png")
+PYTHON
+PYTHONPATH="$root/tests/browser:$root/tests/studio" python3 -B - "$build/app/corank" "$root/models" "$root/doc/images" <<'PYTHON'
+import pathlib
+import sys
+
+from chromium import Browser
+from running import Studio
+
+program, models, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+done = """new Promise((done) => {
+  const look = () => (corank.studio.ended && !document.querySelector("#space.waiting") ? setTimeout(done, 500) : setTimeout(look, 100));
+  look();
+})"""
+for name, dark in (("dextar", False), ("planar/3rpr", False), ("platforms/stewart", False), ("serial/orthogonal_3r", True),
+                   ("planar/four_bar_crank_rocker", False)):
+    with Studio(program, str(models / f"{name}.cuik")) as studio, Browser(1440, 900, dark=dark) as browser:
+        browser.go(studio.address)
+        browser.run(done)
+        browser.drawn()
+        short = pathlib.Path(name).name.replace("_crank_rocker", "")
+        browser.screenshot(folder / f"studio_{short}.webp")
 PYTHON

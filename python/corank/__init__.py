@@ -25,6 +25,7 @@ from .analyses import (
 )
 from .errors import Interrupted, ModelError, OptionError, ResultFileError
 from .expression import as_expression, as_relation, cos, degrees, linspace, pi, sin, sqrt, tan
+from .live import Studio
 from .mapping import ParameterMap
 from .mechanism import Coordinate, Mechanism, load, parse
 from .notebook import Page
@@ -73,6 +74,7 @@ __all__ = [
     "ResultFileError",
     "SETS",
     "Sigma",
+    "Studio",
     "Sweep",
     "ToleranceFactor",
     "Topology",

@@ -1,6 +1,6 @@
 # The extension module. What it returns as tuples, the package's classes have names for.
 import os
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -309,6 +309,10 @@ class PageAspects: ...
 def page_aspects(
     results: List[Result], threads: int, time_limit: float, progress: Any
 ) -> Tuple[Optional[PageAspects], Optional[BaseException]]: ...
+
+class ServerError(OSError): ...
+
+def serve_studio(file: str, text: str, port: int, threads: int, on_address: Callable[[str], None]) -> None: ...
 def report_page(
     results: List[Result], command: str, figures: List[str], files: List[str], aspects: Optional[PageAspects]
 ) -> str: ...

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Union
 
-from . import _corank, analyses, mapping, notebook, pages, pathing, posturing, result, sweeping
+from . import _corank, analyses, live, mapping, notebook, pages, pathing, posturing, result, sweeping
 from ._corank import Expression
 from .errors import deliver
 from .expression import ExpressionLike, RelationLike, as_expression, as_relation, constant_text, pi
@@ -343,6 +343,7 @@ class Mechanism:
     map = mapping.map
     path = pathing.path
     report = pages.report
+    studio = live.studio
     sweep = sweeping.sweep
 
     def show(self, **options: Any) -> "pages.Report":

@@ -18,6 +18,9 @@ extern const std::string_view kPathScript;       ///< the modules of that page a
 extern const std::string_view kGalleryTemplate;  ///< gallery.html, for mustache
 extern const std::string_view kGalleryStyle;     ///< gallery.css, which adds to page.css
 extern const std::string_view kGalleryScript;    ///< the modules of that page as one
+extern const std::string_view kStudioTemplate;   ///< studio.html, for mustache
+extern const std::string_view kStudioStyle;      ///< studio.css, which adds to page.css
+extern const std::string_view kStudioScript;     ///< the modules of that page as one
 extern const std::string_view kThree;            ///< three.js as a script that defines THREE
 
 }  // namespace corank::report

@@ -136,6 +136,8 @@ Json motions(const SetView& view) {
   return list;
 }
 
+}  // namespace
+
 Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
   const result::Result& result = view.result;
   const Json columns = kernel_columns(mechanism, derivation, view);
@@ -150,8 +152,6 @@ Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& de
               {"motions", motions(view)}});
   return set;
 }
-
-}  // namespace
 
 ConstantValues constant_values(const symbolic::Mechanism& mechanism) {
   ConstantValues values;
@@ -215,15 +215,14 @@ std::string set_style() {
   return fmt::format(":root {{ {}}}\n:root[data-theme=\"dark\"] {{ {}}}\n{}", light, dark, classes);
 }
 
-std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
-                       const std::vector<SetView>& views) {
+std::string page_model_of(const symbolic::Mechanism& mechanism, Json sets) {
   const System cspace = algebrize(singularity_system(mechanism, symbolic::SingularitySet::cspace));
   Json model = {{"model", mechanism.name()},
                 {"verdicts", verdict_names()},
                 {"coordinates", coordinates(mechanism, cspace)},
                 {"drawing", drawing(mechanism)},
                 {"constraints", polynomials(cspace.equations)},
-                {"sets", each(views, [&](const SetView& view) { return set_of(mechanism, derivation, view); })}};
+                {"sets", std::move(sets)}};
   for (const symbolic::Rate& rate : mechanism.rates()) model["rates"].push_back(rate.name);
   return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -234,6 +233,11 @@ std::string drawing_model(const symbolic::Mechanism& mechanism, const System& sy
                       {"drawing", drawing(mechanism)},
                       {"sets", Json::array()}};
   return script_safe(model.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::string page_model(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation,
+                       const std::vector<SetView>& views) {
+  return page_model_of(mechanism, each(views, [&](const SetView& view) { return set_of(mechanism, derivation, view); }));
 }
 
 }  // namespace corank::report

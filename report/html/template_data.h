@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corank/report/html/set_view.h"
+#include "corank/symbolic/velocity/velocity_equation.h"
 
 namespace corank::report {
 
@@ -50,6 +51,11 @@ Json verdict_names();
 /// "dot" (SetLook), "dimension", "sigma", "complete", "count" of boxes, "types" of each box, and of a workspace boundary
 /// "passage" (null of other sets).
 Json set_description(const SetView& view);
+
+/// The same with its variables, equations, points and self-motions.
+Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view);
+/// page_model() with these sets, made by set_of().
+std::string page_model_of(const symbolic::Mechanism& mechanism, Json sets);
 
 /// Of each set what corank solve --json prints of it, with its file.
 Json summaries(const std::vector<SetView>& views, const std::vector<std::string>& files);

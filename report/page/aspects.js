@@ -44,6 +44,20 @@ export function aspectLegend(aspects, section, setByAspect, onChange) {
   const all = section.querySelector("input.by-aspect"),
     list = section.querySelector(".aspects-legend");
   if (!all) return;
+  aspectItems(aspects, list, onChange);
+  const follow = () => {
+    list.hidden = !all.checked;
+    setByAspect(all.checked);
+  };
+  all.addEventListener("change", () => {
+    follow();
+    onChange();
+  });
+  follow();
+}
+
+// A check box for each aspect.
+export function aspectItems(aspects, list, onChange) {
   aspects.labels.forEach((label, k) => {
     const item = document.createElement("label");
     item.innerHTML = `<input type="checkbox" class="aspect" value="${k + 1}" checked><span class="swatch" style="background: ${
@@ -56,13 +70,4 @@ export function aspectLegend(aspects, section, setByAspect, onChange) {
     });
     list.append(item);
   });
-  const follow = () => {
-    list.hidden = !all.checked;
-    setByAspect(all.checked);
-  };
-  all.addEventListener("change", () => {
-    follow();
-    onChange();
-  });
-  follow();
 }

@@ -70,6 +70,11 @@ export function readSet(description, id) {
   return new BoxSet(description, floatsOf(bytesOf("boxes")), bytesOf("verdicts"));
 }
 
+// Of a description that holds its boxes.
+export function liveSet({boxes, verdicts, ...description}) {
+  return new BoxSet(description, floatsOf(bytesOfBase64(boxes)), bytesOfBase64(verdicts));
+}
+
 export function readModel() {
   const model = JSON.parse(document.getElementById("model").textContent);
   model.sets = model.sets.map((description) => readSet(description, description.name));

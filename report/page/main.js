@@ -2,43 +2,12 @@
 import {aspectLegend, readAspects} from "./aspects.js";
 import {axisOrder, firstOf} from "./axis_choice.js";
 import {readModel} from "./data.js";
-import {drawnPoints} from "./mechanism.js";
 import {mechanismPicture} from "./mechanism_picture.js";
-import {pointOfBox} from "./newton.js";
 import {Panel} from "./panel.js";
 import {Portrait} from "./portrait.js";
+import {clearest, sampleConfigurations} from "./samples.js";
 import {Space} from "./space.js";
 import {followTheme, takeTheme} from "./theme.js";
-import {coordinateValues} from "./values.js";
-
-// Configurations here and there in a set: {set, box, values}.
-function sampleConfigurations(model, set, most) {
-  if (!set) return [];
-  const step = Math.max(1, Math.floor(set.count / most)),
-    samples = [];
-  for (let box = step >> 1; box < set.count; box += step)
-    samples.push({set, box, values: coordinateValues(model, pointOfBox(set, box).x)});
-  return samples;
-}
-
-// The clearest of some configurations: one that keeps its points apart, upright rather than hanging.
-function clearest(model, samples) {
-  let best = null;
-  for (const sample of samples) {
-    const at = drawnPoints(model, sample.values)
-      .filter(({named}) => named)
-      .map(({position}) => position);
-    let room = Infinity,
-      height = 0;
-    at.forEach((p, i) => {
-      height += p[1] / at.length;
-      for (let j = 0; j < i; ++j) room = Math.min(room, Math.hypot(p[0] - at[j][0], p[1] - at[j][1]));
-    });
-    const score = room + 0.15 * height;
-    if (!best || score > best.score) best = {score, ...sample};
-  }
-  return best;
-}
 
 function main() {
   takeTheme();

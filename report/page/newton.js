@@ -2,7 +2,7 @@
 // it makes pictures, and proves nothing.
 
 // Value and gradient of a polynomial: monomials [coefficient, variable, power, function, …], function 0: x, 1: sin x, 2: cos x.
-function evaluatePolynomial(monomials, x, gradient) {
+export function evaluatePolynomial(monomials, x, gradient) {
   gradient.fill(0);
   let sum = 0;
   for (const monomial of monomials) {

@@ -24,6 +24,24 @@ export class Panel {
     root.querySelector(".unpin").addEventListener("click", () => this.unpin());
   }
 
+  // Another model; what was shown is let go.
+  setModel(model, configurations) {
+    this.player.stop();
+    const sameKind = this.model.drawing.dimension === model.drawing.dimension;
+    this.model = model;
+    this.current = null;
+    this.list([]);
+    if (sameKind) {
+      this.picture.setModel(model, configurations);
+    } else {
+      const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+      svg.setAttribute("role", "img");
+      svg.setAttribute("aria-label", "The mechanism");
+      this.root.querySelector(".picture").replaceChildren(svg);
+      this.picture = mechanismPicture(svg, model, configurations);
+    }
+  }
+
   hover(candidates, place, portrait) {
     if (this.pinned) return;
     this.offer(candidates, place, portrait);
@@ -55,6 +73,13 @@ export class Panel {
   }
 
   offer(candidates, place, portrait) {
+    this.list(candidates);
+    if (candidates.length > 0) this.choose(0);
+    else this.showNothing(place, portrait);
+  }
+
+  // A button for each candidate; none is chosen.
+  list(candidates) {
     this.candidates = candidates;
     this.chosen = 0;
     this.modes.replaceChildren();
@@ -71,13 +96,15 @@ export class Panel {
       });
       this.modes.append(button);
     });
-    if (candidates.length > 0) this.choose(0);
-    else this.showNothing(place, portrait);
+  }
+
+  mark(k) {
+    this.chosen = k;
+    [...this.modes.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === k)));
   }
 
   choose(k) {
-    this.chosen = k;
-    [...this.modes.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === k)));
+    this.mark(k);
     const candidate = this.candidates[k],
       {set, box, boxes = [box]} = candidate;
     this.player.stop();

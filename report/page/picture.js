@@ -58,6 +58,17 @@ export class Picture {
     return [low - margin, high + margin];
   }
 
+  // Keeps former limits where they hold these boxes and leave little room; while sets are missing, any room.
+  keepLimits(former) {
+    this.limits = this.limits.map(([low, high], k) => {
+      const [a, b] = former[k];
+      if (this.model.partial) return [Math.min(a, low), Math.max(b, high)];
+      return a <= low + 0.04 * (high - low) && b >= high - 0.04 * (high - low) && b - a < 1.35 * (high - low)
+        ? [a, b]
+        : [low, high];
+    });
+  }
+
   // The height, in pixels of the page, of a picture that wide; `pad` as in Plane.
   layOut(width, pad) {
     this.plane = new Plane(this.axes, this.limits, width, pad);

@@ -25,20 +25,36 @@ export class Portrait {
 
   fillSelects(axes) {
     this.selects.forEach((select, k) => {
+      select.replaceChildren();
       this.model.coordinates.forEach((coordinate, i) =>
         select.add(new Option(plainLabel(coordinate), i, false, i === axes[k])),
       );
-      select.addEventListener("change", () => this.setAxes(this.selects.map((s) => Number(s.value))));
+      select.onchange = () => this.setAxes(this.selects.map((s) => Number(s.value)));
     });
   }
 
-  setAxes(axes) {
+  // Another model, over coordinates of the same names where it has them; `axes`: else. The limits stay while they fit: what moves is then
+  // the picture, not its frame.
+  setModel(model, axes) {
+    const {limits} = this.picture;
+    const names = this.picture.axes.map(({name}) => name);
+    const places = names.map((name) => model.coordinates.findIndex((coordinate) => coordinate.name === name));
+    const same = model.coordinates.map(({name}) => name).join() === this.model.coordinates.map(({name}) => name).join();
+    this.model = model;
+    this.shown = null;
+    const kept = places.every((place) => place >= 0) ? places : axes;
+    if (!same) this.fillSelects(kept);
+    this.setAxes(kept, kept === places ? limits : null);
+  }
+
+  setAxes(axes, limits = null) {
     this.picture = new Picture(
       this.model,
       this.model.sets,
       axes.map((i) => this.model.coordinates[i]),
       this.trace?.points,
     );
+    if (limits) this.picture.keepLimits(limits);
     this.picture.hidden = this.hidden;
     this.picture.byAspect = this.byAspect;
     this.cursor = null;

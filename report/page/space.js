@@ -15,14 +15,31 @@ export class Space {
     this.onPick = onPick;
     this.hidden = new Set();
     this.byAspect = false;
-    this.selects.forEach((select, k) => {
-      model.coordinates.forEach((coordinate, i) => select.add(new Option(plainLabel(coordinate), i, false, i === axes[k])));
-      select.addEventListener("change", () => this.build());
-    });
+    this.fillSelects(axes);
     this.form.addEventListener("change", () => this.build());
     if (!this.start()) return;
     this.build();
     new ResizeObserver(() => this.resize()).observe(this.frame);
+  }
+
+  fillSelects(axes) {
+    this.selects.forEach((select, k) => {
+      select.replaceChildren();
+      this.model.coordinates.forEach((coordinate, i) =>
+        select.add(new Option(plainLabel(coordinate), i, false, i === axes[k])),
+      );
+      select.onchange = () => this.build();
+    });
+  }
+
+  // Another model, with the same axes where the coordinates have the same names; `axes`: else.
+  setModel(model, axes) {
+    const names = ({coordinates}) => coordinates.map(({name}) => name).join();
+    const same = names(model) === names(this.model);
+    this.model = model;
+    this.shown = null;
+    if (!same) this.fillSelects(axes);
+    this.build();
   }
 
   start() {

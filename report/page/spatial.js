@@ -106,6 +106,13 @@ export class SpatialMechanism {
     this.floor = (floor - this.middle.z) * this.scale;
   }
 
+  setModel(model, configurations) {
+    this.model = model;
+    this.measure(configurations);
+    this.shown = null;
+    this.redraw();
+  }
+
   // As high as the mechanism is at first, in bounds.
   height(width) {
     const [right, up] = this.extents.map(([least, most]) => most - least + 0.4);

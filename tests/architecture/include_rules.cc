@@ -68,7 +68,8 @@ const std::vector<LibraryRule>& library_rules() {
       {std::regex("^urdf_"), {}, true},  // another reader of URDF, for comparison
       {std::regex("^CLI/"), {"app"}, false},
       {std::regex("^tao/"), {"symbolic", "kinematics"}, false},
-      {std::regex("^nlohmann/"), {"result", "analyze", "report", "bench"}, true},
+      {std::regex("^nlohmann/"), {"result", "analyze", "report", "studio", "bench"}, true},
+      {std::regex("^boost/(asio|beast)"), {"studio"}, true},
       {std::regex("^kainjow/"), {"report"}, false},
       {std::regex("^toml\\+\\+/"), {"report"}, false},
       {std::regex("^pybind11/|^Python\\.h"), {"python"}, false},

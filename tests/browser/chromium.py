@@ -128,8 +128,11 @@ class Browser:
                 return message["result"]
 
     def open(self, path):
+        self.go(pathlib.Path(path).resolve().as_uri())
+
+    def go(self, url):
         before = self.loaded
-        self.call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
+        self.call("Page.navigate", url=url)
         while self.loaded == before:
             self._read()
 
@@ -173,7 +176,10 @@ class Browser:
             )
 
     def screenshot(self, path, whole=False):
-        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
+        """As .png or, smaller, as .webp."""
+        kind = pathlib.Path(path).suffix[1:]
+        more = {"quality": 80} if kind == "webp" else {}
+        answer = self.call("Page.captureScreenshot", format=kind, captureBeyondViewport=whole, **more)
         pathlib.Path(path).write_bytes(base64.b64decode(answer["data"]))
 
     def photograph(self, selector, path):
