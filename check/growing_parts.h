@@ -2,7 +2,7 @@
 // them alone? The checker's own.
 //
 // Theorem. Let P be a piece of S (check/pieces_bound.h), of the signs s, that lies in the union U of finitely many cells
-// only, and K some functions, with weights w_k > 0. For each cell let a direction d of its free variables be given along
+// only, and K one function or more, with weights w_k > 0. For each cell let a direction d of its free variables be given along
 // which s_j·∂g_j/∂d > 0 all over the cell for each function that has both signs there, and for each k in K that may be the
 // least of K there: w_k·s_k·g_k has not a minimum over the cell above the maximum of another's. Then there is no such P.
 //   Proof: h = min w_k·s_k·g_k over K has its maximum over the closure of P, which is compact, at some x in a cell. Let

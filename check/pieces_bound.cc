@@ -337,6 +337,7 @@ class Bound {
         cells.push_back(std::move(cell));
       }
       cells_ = std::move(cells);
+      result_.cells = cells_.size();
       if (cells_.size() > kMostPieceCells) return "there are too many cells";
     }
   }

@@ -210,6 +210,7 @@ SignParts::Directions SignParts::passages(const SignCell& cell, const std::vecto
 // Along the shortest direction in which, at the middle and to first order, all grow alike: Gᵀ λ with (G Gᵀ) λ = 1, where the
 // rows of G are the gradients of length 1, and Gauss's elimination finds λ; or along a usual direction.
 bool SignParts::grow_together(SignCell cell, std::vector<std::size_t> functions, const std::vector<int>& signs) const {
+  problem_.stop().poll();
   cell.mixed = std::move(functions);
   Slopes s;
   if (!slopes(cell, s)) return false;

@@ -198,12 +198,12 @@ class Answer {
   }
 
   void say_aspects() {
-    solve::Control control({.time = limits_.seconds, .memory = limits_.memory, .stop = &stop_});
+    solve::Control control({.time = limits_.analysis_seconds, .memory = limits_.memory, .stop = &stop_});
     std::vector<const result::Result*> results;
     for (const auto& [set, found] : found_)
       if (found.view) results.push_back(&found.view->result);
-    const auto aspects =
-        report::page_aspects(question_, results, limits_.threads, fmt::format("{:g} seconds", limits_.seconds), control);
+    const auto aspects = report::page_aspects(question_, results, limits_.threads,
+                                              fmt::format("{:g} seconds", limits_.analysis_seconds), control);
     if (stop_) return;
     const std::string unknown =
         "Nothing is known of aspects: they need C-space as a whole, of dimension 1 or 2, and as many inputs as outputs.";
@@ -255,11 +255,11 @@ class Answer {
     }
     if (stop_) return;
     report::PageOptions options{.command = request_.command, .figures = {}, .files = {}};
-    solve::Control control({.time = limits_.seconds, .memory = limits_.memory, .stop = &stop_});
+    solve::Control control({.time = limits_.analysis_seconds, .memory = limits_.memory, .stop = &stop_});
     std::vector<const result::Result*> results;
     for (const report::SetView& view : views) results.push_back(&view.result);
-    options.aspects =
-        report::page_aspects(question_, results, limits_.threads, fmt::format("{:g} seconds", limits_.seconds), control);
+    options.aspects = report::page_aspects(question_, results, limits_.threads,
+                                           fmt::format("{:g} seconds", limits_.analysis_seconds), control);
     if (stop_) return;
     say({{"event", "report"}, {"name", question_.model.name()}, {"html", report_page(question_.model, views, options)}});
     say({{"event", "done"}, {"complete", complete_}, {"seconds", seconds_since(begin_)}});

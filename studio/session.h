@@ -30,6 +30,7 @@ using Emit = std::function<void(const std::string& line)>;
 struct SessionLimits {
   double coarse_seconds = 0.5;           ///< of each search of the first pass
   double seconds = 8;                    ///< of each finer one
+  double analysis_seconds = 30;          ///< of the aspects
   std::uint64_t boxes = 60'000;          ///< that are found of each set: a browser draws them
   std::uint64_t memory = 1'500'000'000;  ///< bytes that a search may take
   int threads = 0;                       ///< 0: one for each core

@@ -7,6 +7,7 @@
 #include "corank/certify/compiled_system.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
+#include "corank/result/values/claim_files.h"
 #include "corank/solve/search/solve.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/free_coordinates.h"
@@ -75,9 +76,15 @@ class Lifting {
 
   Box configuration(const std::vector<std::pair<const System*, const Box*>>& parts) const {
     Box box = middle_;
-    for (const auto& [system, at] : parts)
+    for (const auto& [system, at] : parts) {
+      for (const Angle& a : system->angles) {
+        const auto own = std::ranges::find(system_.angles, a.name, &Angle::name);
+        box[own->cosine] = (*at)[a.cosine];
+        box[own->sine] = (*at)[a.sine];
+      }
       for (int j = 0; j < system->size(); ++j)
-        if (const int k = system_.find(system->variables[j].name); k >= 0) box[k] = (*at)[j];
+        if (system->variables[j].kind == VariableKind::length) box[system_.find(system->variables[j].name)] = (*at)[j];
+    }
     for (std::size_t k = 0; k < given_.size(); ++k)
       box[given_[k]] = compiled_.evaluate(compiled_.value_row(static_cast<int>(k)), box);
     return box;
@@ -105,8 +112,7 @@ Pieces product(const std::vector<AspectsPart>& parts, const std::vector<Places>&
   std::size_t representatives = 1;
   for (const AspectsPart& part : parts) {
     const Pieces& p = part.lists[list];
-    result.at_least *= p.at_least;
-    result.at_most = result.at_most && p.at_most ? std::optional(*result.at_most * *p.at_most) : std::nullopt;
+    result::multiply(result, p);
     result.cells += p.cells;
     if (result.reason.empty()) result.reason = p.reason;
     representatives = std::min(kMostRepresentatives, representatives * p.representatives.size());

@@ -197,15 +197,8 @@ PiecesFile read_pieces(const std::filesystem::path& path) {
 
 namespace {
 
-// Numbers of pieces of a product.
-template <class Bounds, class Other>
-void multiply(Bounds& to, const Other& by) {
-  to.at_least *= by.at_least;
-  to.at_most = to.at_most && by.at_most ? std::optional(*to.at_most * *by.at_most) : std::nullopt;
-}
-
 // What is confirmed of the product of two spaces.
-void multiply(check::PiecesReport& to, check::PiecesReport by) {
+void multiply_reports(check::PiecesReport& to, check::PiecesReport by) {
   if (to.space.complete()) to.space = std::move(by.space);
   std::ranges::move(by.failures, std::back_inserter(to.failures));
   if (by.interrupted && !to.interrupted) to.interrupted = true, to.stage = by.stage;
@@ -217,7 +210,7 @@ void multiply(check::PiecesReport& to, check::PiecesReport by) {
     a.cells += b.cells;
     a.cells_of_bound += b.cells_of_bound;
     a.links += b.links;
-    a.bounded = a.bounded && b.bounded;
+    a.bounded = a.bounded && b.bounded && a.at_most.has_value();
     if (a.unbounded.empty()) a.unbounded = b.unbounded;
     std::ranges::move(b.failures, std::back_inserter(a.failures));
   }
@@ -242,7 +235,7 @@ check::PiecesReport verify(const PiecesFile& file, const check::Options& options
                                {pieces.lists.begin(), pieces.lists.end()}, spaces.functions(pieces), options);
   };
   check::PiecesReport report = check(file);
-  for (const SpacePieces& pieces : file.further) multiply(report, check(pieces));
+  for (const SpacePieces& pieces : file.further) multiply_reports(report, check(pieces));
   return report;
 }
 

@@ -3,7 +3,11 @@
 // doc/paths.md.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +41,15 @@ struct SpacePieces {
   Cover space;
   std::array<PieceClaims, 3> lists;  ///< aspects, assembly modes, working modes
 };
+/// Numbers of pieces of a product, at_least and at_most of each: what does not fit into an int is no bound.
+template <class Bounds, class Other>
+void multiply(Bounds& to, const Other& by) {
+  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  const auto times = [](int a, int b) { return std::int64_t{a} * b; };
+  to.at_least = static_cast<int>(std::min(kMost, times(to.at_least, by.at_least)));
+  const bool fits = to.at_most && by.at_most && times(*to.at_most, *by.at_most) <= kMost;
+  to.at_most = fits ? std::optional(*to.at_most * *by.at_most) : std::nullopt;
+}
 struct PiecesFile : ModelSource, SpacePieces {
   std::vector<SpacePieces> further;  ///< the product's other factors
 };

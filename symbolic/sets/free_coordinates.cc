@@ -45,18 +45,44 @@ std::vector<std::string> mentioned(const std::vector<Coordinate>& coordinates, c
   return result;
 }
 
+// Does the expression have the name within a sine, or another function?
+bool has_in_function(const Expression& e, const std::string& name) {
+  if (e.kind() == Expression::Kind::function) return e.mentions(name);
+  return std::ranges::any_of(e.operands(), [&](const Expression& part) { return has_in_function(part, name); });
+}
+
+// The theorem's hypothesis; the equations' polynomials do not show what is within sines.
+bool gives_a_graph(const std::vector<Relation>& given, const std::vector<Expression>& equations) {
+  for (std::size_t k = 0; k < given.size(); ++k) {
+    const std::string& name = given[k].lhs.name();
+    if (given[k].rhs.mentions(name)) return false;
+    for (std::size_t i = 0; i < k; ++i)
+      if (equations[i].mentions(name)) return false;
+    if (std::ranges::any_of(equations, [&](const Expression& e) { return has_in_function(e, name); })) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
-  const ExactMatrix none(mechanism, {}, residuals(mechanism));
+  if (!mechanism.toleranced().empty()) return std::nullopt;
+  const std::vector<Expression> equations = residuals(mechanism);
+  const ExactMatrix none(mechanism, {}, equations);
   if (!none.is_explicit()) return std::nullopt;
   FreeCoordinates result{plain_system(mechanism), none.given()};
+  if (!gives_a_graph(result.given, equations)) return std::nullopt;
   TrigonometricSystem& system = result.system;
+  const std::vector<Coordinate> within_limits = system.coordinates;
   system.equations.clear();
+  system.claimed.clear();
   std::map<std::string, Expression> values;
   for (const Relation& r : result.given) values.emplace(r.lhs.name(), r.rhs.substituted(values));
   std::erase_if(system.coordinates, [&](const Coordinate& c) { return values.contains(c.name); });
-  for (auto& inequality : system.inequalities) inequality.relation = inequality.relation.substituted(values);
+  for (auto& inequality : system.inequalities) {
+    inequality.relation = inequality.relation.substituted(values);
+    if (mentioned(system.coordinates, inequality.relation.lhs - inequality.relation.rhs).empty()) return std::nullopt;
+  }
 
   // Does the range of a given coordinate cut anything off?
   const UpwardRounding rounding;
@@ -73,20 +99,25 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
   std::optional<std::set<std::string>> units;
   for (const Relation& r : result.given) {
     const std::string& name = r.lhs.name();
-    const Coordinate& c = mechanism.coordinates()[mechanism.find_coordinate(name)];
+    const int index = mechanism.find_coordinate(name);
+    const Coordinate& c = mechanism.coordinates()[index];
     if (is_fixed(c)) return std::nullopt;
-    const auto limited = std::ranges::find(mechanism.limits(), name, &Limit::coordinate);
-    if (!c.has_range && limited == mechanism.limits().end()) continue;  // its range is what the equations say
-    const std::optional<Interval> range = range_of(values.at(name), known);
-    if (range && limited == mechanism.limits().end() && is_in_range(mechanism, c, *range)) continue;
-    if (c.auxiliary && is_in_range(mechanism, c, Interval(-1, 1))) {
-      if (!units) units = unit_vectors(mechanism, result.given);
-      if (units->contains(vector_of(name))) continue;
+    const bool is_limited = std::ranges::find(mechanism.limits(), name, &Limit::coordinate) != mechanism.limits().end();
+    const Expression& value = values.at(name);
+    if (!is_limited) {
+      if (!c.has_range) continue;  // its range is what the equations say
+      const bool is_constant = mentioned(system.coordinates, value).empty();
+      const std::optional<Interval> range =
+          is_constant ? exact_value(mechanism, value, name).enclose() : range_of(value, known);
+      if (range && is_in_range(mechanism, c, *range)) continue;
+      if (is_constant) return std::nullopt;
+      if (c.auxiliary && is_in_range(mechanism, c, Interval(-1, 1))) {
+        if (!units) units = unit_vectors(mechanism, result.given);
+        if (units->contains(vector_of(name))) continue;
+      }
     }
-    std::vector<Coordinate> own{c};
-    keep_limits(mechanism, own);
-    system.inequalities.push_back({values.at(name) >= own.front().lower, "lower end of " + name, c.where});
-    system.inequalities.push_back({values.at(name) <= own.front().upper, "upper end of " + name, c.where});
+    system.inequalities.push_back({value >= within_limits[index].lower, "lower end of " + name, c.where});
+    system.inequalities.push_back({value <= within_limits[index].upper, "upper end of " + name, c.where});
   }
   return result;
 }

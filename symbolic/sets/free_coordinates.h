@@ -24,7 +24,8 @@ struct FreeCoordinates {
   std::vector<Relation> given;
 };
 
-/// Nothing where some equation gives no coordinate.
+/// Nothing where some equation gives no coordinate, a given one has one value or stands in a sine, or a constant has a
+/// tolerance.
 std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism);
 
 /// A factor of a product of sets.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -169,6 +170,42 @@ TEST(FreeCoordinates, KeepTheRangesThatCutSomethingOff) {
   const auto narrow = symbolic::free_coordinates(planted_arm({"sin(a)", "cos(b)", "sin(c)"}, "[-9, 1/2]"));
   ASSERT_TRUE(narrow);
   EXPECT_EQ(narrow->system.inequalities.size(), 2U);
+}
+
+// A limit is kept whatever else is known of the coordinate's range, and it is its own.
+TEST(FreeCoordinates, KeepTheLimitsOfGivenCoordinates) {
+  const auto free = symbolic::free_coordinates(symbolic::parse_model(
+      "[SYSTEM VARS]\na ~ [-pi, pi]\nx : [-3, 3]\n[DUMMY VARS]\nu_x : [-11/10, 11/10]\nu_y : [-11/10, 11/10]\n[SYSTEM EQS]\n"
+      "u_x = cos(a);\nu_y = sin(a);\nx = 2*u_x*u_x;\n[INPUTS] a\n[OUTPUTS] x\n[LIMITS]\nu_x : [-1/2, 1/4]\na ~ [-pi/3, "
+      "pi/2]\n",
+      "limits.cuik"));
+  ASSERT_TRUE(free);
+  ASSERT_EQ(free->system.coordinates.size(), 1U);
+  EXPECT_EQ(free->system.coordinates.front().upper.text(), "pi/2");
+  ASSERT_EQ(free->system.inequalities.size(), 2U);
+  EXPECT_EQ(free->system.inequalities[0].relation.rhs.text(), "-1/2");
+  EXPECT_EQ(free->system.inequalities[1].relation.rhs.text(), "1/4");
+}
+
+// x − 2 cos x + 3/2 = z does not give x.
+TEST(FreeCoordinates, AreNotSaidToGiveWhatStandsInASine) {
+  const std::string begin = "[SYSTEM VARS]\nz : [-5, 5]\nx : [-9, 9]\nw : [-9, 9]\n[SYSTEM EQS]\n",
+                    end = "[INPUTS] w\n[OUTPUTS] x\n";
+  const auto of = [&](const std::string& equations) {
+    return symbolic::free_coordinates(symbolic::parse_model(begin + equations + end, "sine.cuik"));
+  };
+  EXPECT_FALSE(of("x = 2*cos(x) + z - 3/2;\nw = x;\n"));
+  EXPECT_FALSE(of("w = cos(x) + z;\nx = w + 1;\n"));
+  EXPECT_TRUE(of("x = z - 3/2;\nw = x;\n"));
+}
+
+TEST(AspectProduct, OfManyFactorsHasNoBoundThatDoesNotFit) {
+  result::SpacePieces many;
+  many.lists[0].at_least = many.lists[0].at_most.emplace(65'536);
+  PieceClaims all = many.lists[0];
+  result::multiply(all, many.lists[0]);
+  EXPECT_EQ(all.at_least, std::numeric_limits<int>::max());
+  EXPECT_FALSE(all.at_most);
 }
 
 }  // namespace
