@@ -7,8 +7,8 @@
 //      solution over a part of a box that the cells of its sheet leave open is not in S, or lies in cells of other sheets.
 //      So every point of S lies in a cell, in its part of some signs.
 //   2. Each part is connected, or empty, or a passage (check/sign_parts.h).
-//   3. Passages of like signs that touch hang together. A piece that lies in passages alone lies in those of one such cluster,
-//      and in none where check/growing_parts.h says so. So every piece of S has a connected part.
+//   3. Passages of like signs that touch hang together. A piece that lies in passages alone lies in those of one such
+//      cluster, and in none where check/growing_parts.h says so. So every piece of S has a connected part.
 //   4. Connected parts with a point in common are of one piece: a link's solution, proven to lie in both; or cells of one
 //      sheet over boxes that meet, one of which is all of one part.
 // So there are at most as many pieces as classes of connected parts.

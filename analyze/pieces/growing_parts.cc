@@ -108,7 +108,8 @@ void SignCells::add_convex_limits(SignCell& cell, const certify::SignCellTest::S
   }
 }
 
-// Is there a direction in which all mixed functions grow, and of K those that may be the least of K somewhere? `sizes`: of K.
+// Is there a direction in which all mixed functions grow, and of K those that may be the least of K somewhere? `sizes`:
+// of K.
 bool SignCells::climbs(const SignCell& cell, const std::map<int, double>& sizes, const std::vector<int>& signs) const {
   const auto weighed = [&](int k, double size) { return Interval(signs[k] / size) * cell.range[k]; };
   double least = HUGE_VAL;

@@ -60,7 +60,8 @@ class SignCells {
   bool is_limit(int function) const { return function >= functions() - limits_; }
   /// Those signs of a cell's mixed functions that are free to choose, as bits: all but the limits'.
   std::size_t choice(const SignCell& cell, const std::vector<int>& signs) const;
-  /// Of each choice that there is the signs of all functions. Nothing: more than three of them have both signs, in the plane two.
+  /// Of each choice that there is the signs of all functions. Nothing: more than three of them have both signs,
+  /// in the plane two.
   std::vector<std::vector<int>> choices(const SignCell& cell) const;
   /// Of passages of these signs that hang together, the cells that stand in the way of a proof that no piece lies in them
   /// alone; none: it is proven. Theorem: doc/theory.md, "Passages that hang together".

@@ -103,8 +103,8 @@ TEST(AspectProduct, IsNotTakenOfClosureEquations) {
   EXPECT_TRUE(counted(product_model("dextar")).product_of.empty());
 }
 
-// cos(a + k b) = 0, cos(b − m c) = 0 and cos(n c) = 0 are closed surfaces. In the angles u = a + k b, v = b − m c and c, which
-// are angles of the same torus, they are two planes, two, and 2n: 2·2·2n boxes.
+// cos(a + k b) = 0, cos(b − m c) = 0 and cos(n c) = 0 are closed surfaces. In the angles u = a + k b, v = b − m c and c,
+// which are angles of the same torus, they are two planes, two, and 2n: 2·2·2n boxes.
 TEST(AspectProduct, OfPlantedPlanesAreTheirBoxes) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> multiple(0, 1), harmonic(1, 2);
@@ -119,8 +119,8 @@ TEST(AspectProduct, OfPlantedPlanesAreTheirBoxes) {
   }
 }
 
-// x = a³/3 + a (b² + c² − r²) has ∂x/∂a = a² + b² + c² − r²: a sphere in a cube of edge 2. Of radius r < √2 it leaves what is
-// in it and what is outside, which hangs together along the cube's edges; above, eight corners.
+// x = a³/3 + a (b² + c² − r²) has ∂x/∂a = a² + b² + c² − r²: a sphere in a cube of edge 2. Of radius r < √2 it leaves
+// what is in it and what is outside, which hangs together along the cube's edges; above, eight corners.
 TEST(AspectProduct, OfAPlantedSphereInACubeAreKnown) {
   std::mt19937 random(8);
   std::uniform_int_distribution<int> percent(40, 165);
