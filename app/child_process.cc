@@ -11,9 +11,9 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <system_error>
+
+#include "corank/result/files/result_file.h"
 
 namespace corank::app {
 namespace {
@@ -42,10 +42,7 @@ class HiddenFile {
   HiddenFile& operator=(const HiddenFile&) = delete;
 
   int descriptor() const { return descriptor_; }
-  std::string text() const {
-    std::ifstream in("/proc/self/fd/" + std::to_string(descriptor_), std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  std::string text() const { return result::file_bytes("/proc/self/fd/" + std::to_string(descriptor_)); }
 
  private:
   int descriptor_;

@@ -3,8 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -65,11 +63,6 @@ std::vector<report::GalleryEntry> chosen_entries(const GalleryCommand& command) 
   return all;
 }
 
-std::string build_of(const fs::path& program) {
-  std::ifstream in(program, std::ios::binary);
-  return result::version() + " " + hash_of({std::istreambuf_iterator<char>(in), {}});
-}
-
 /// All entries, several at a time; those that were not begun when `stop` was set are left out.
 std::vector<report::GalleryResult> run_all(const std::vector<report::GalleryEntry>& entries, GalleryOptions options,
                                            int cores, const std::atomic<bool>& stop) {
@@ -125,7 +118,10 @@ ExitStatus gallery(GalleryCommand command) {
   const int cores =
       command.threads > 0 ? command.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const std::vector<report::GalleryResult> results =
-      run_all(entries, {program, build_of(program), folder, command.fresh, 1, command.time_limit}, cores, Interrupt::stop());
+      run_all(entries,
+              {program, result::version() + " " + hash_of(result::file_bytes(program)), folder, command.fresh, 1,
+               command.time_limit},
+              cores, Interrupt::stop());
   const bool complete = results.size() == entries.size();
   result::write_text(folder / "index.html", gallery_page(results, folder, shown_command(command)));
   if (command.json.say([&] { return gallery_json(results, complete) + "\n"; })) {

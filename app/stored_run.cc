@@ -4,8 +4,6 @@
 
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "corank/result/files/result_file.h"
@@ -13,16 +11,11 @@
 namespace corank::app {
 namespace {
 
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// What tells whether the files are those that were stored.
 std::string hash_of_files(const std::string& output, const std::vector<std::filesystem::path>& files) {
   std::string all = hash_of(output);
   for (const std::filesystem::path& file : files)
-    all += std::filesystem::exists(file) ? hash_of(contents(file)) : std::string("missing");
+    all += std::filesystem::exists(file) ? hash_of(result::file_bytes(file)) : std::string("missing");
   return hash_of(all);
 }
 
@@ -36,11 +29,11 @@ StoredRun::StoredRun(std::filesystem::path folder, std::string name, std::string
     : output_(folder / (name + ".json")), record_(folder / (name + ".run")), key_(std::move(key)) {}
 
 std::optional<report::GalleryRun> StoredRun::read(const std::vector<std::filesystem::path>& files) const {
-  std::istringstream record(contents(record_));
+  std::istringstream record(result::file_bytes(record_));
   std::string key, hash;
   report::GalleryRun run;
   if (!(record >> key >> hash >> run.status >> run.seconds >> run.processor_seconds)) return std::nullopt;
-  run.output = contents(output_);
+  run.output = result::file_bytes(output_);
   if (key != key_ || hash != hash_of_files(run.output, files)) return std::nullopt;
   run.stored = true;
   return run;

@@ -53,6 +53,7 @@ std::vector<std::size_t> in_the_way(const SignParts& parts, const std::vector<Gr
   };
   // K: all, or all but one.
   for (const std::map<std::size_t, double>& all : {largest, smallest}) {
+    if (result.empty()) break;
     keep_fewer(all);
     for (auto k = all.begin(); k != all.end() && all.size() > 1 && !result.empty(); ++k) {
       std::map<std::size_t, double> others = all;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "corank/check/inertia.h"
+#include "corank/check/krawczyk.h"
 #include "corank/core/box.h"
 
 namespace corank::check {
@@ -207,8 +208,8 @@ SignParts::Directions SignParts::passages(const SignCell& cell, const std::vecto
   return result;
 }
 
-// Along the shortest direction in which, at the middle and to first order, all grow alike: Gᵀ λ with (G Gᵀ) λ = 1, where the
-// rows of G are the gradients of length 1, and Gauss's elimination finds λ; or along a usual direction.
+// Along the shortest direction in which, at the middle and to first order, all grow alike: Gᵀ (G Gᵀ)⁻¹ 1, where the rows of
+// G are the gradients of length 1; or along a usual direction.
 bool SignParts::grow_together(SignCell cell, std::vector<std::size_t> functions, const std::vector<int>& signs) const {
   problem_.stop().poll();
   cell.mixed = std::move(functions);
@@ -221,20 +222,13 @@ bool SignParts::grow_together(SignCell cell, std::vector<std::size_t> functions,
     for (std::size_t f = 0; f < n; ++f) length = std::hypot(length, g[k][f] = (s[k][f].lo() + s[k][f].hi()) / 2);
     for (double& x : g[k]) x *= signs[cell.mixed[k]] / length;
   }
-  std::vector<Direction> a(r, Direction(r + 1, 1.0));
-  for (std::size_t k = 0; k < r; ++k)
-    for (std::size_t l = 0; l < r; ++l) a[k][l] = std::inner_product(g[k].begin(), g[k].end(), g[l].begin(), 0.0);
-  for (std::size_t k = 0; k < r; ++k) {
-    const auto size = [k](const Direction& row) { return std::fabs(row[k]); };
-    std::iter_swap(a.begin() + k, std::ranges::max_element(a.begin() + k, a.end(), {}, size));
-    for (std::size_t l = 0; l < r; ++l) {
-      const double multiple = a[l][k] / a[k][k];
-      for (std::size_t j = k; l != k && j <= r; ++j) a[l][j] -= multiple * a[k][j];
-    }
-  }
+  std::vector<double> products;
+  for (const Direction& a : g)
+    for (const Direction& b : g) products.push_back(std::inner_product(a.begin(), a.end(), b.begin(), 0.0));
+  const std::vector<double> inverted = inverse(products, r);
   Direction d(n, 0.0);
-  for (std::size_t k = 0; k < r; ++k)
-    for (std::size_t f = 0; f < n; ++f) d[f] += a[k][r] / a[k][k] * g[k][f];
+  for (std::size_t i = 0; i < inverted.size(); ++i)
+    for (std::size_t f = 0; f < n; ++f) d[f] += inverted[i] * g[i / r][f];
   const auto all_grow = [&](const Direction& along) { return grows(cell, s, along, signs); };
   if (std::ranges::all_of(d, [](double x) { return std::isfinite(x); }) && all_grow(d)) return true;
   Direction widths;

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "corank/analyze/paths/standing.h"
 #include "corank/core/requirement.h"
@@ -121,7 +122,7 @@ class Answer {
       try {
         search(set, number);
       } catch (const symbolic::ModelError& error) {
-        refused_[set] = true;
+        refused_.insert(set);
         found_.erase(set);
         Json event = error_event(error);
         say({{"event", "refused"}, {"set", set}, {"message", event["message"]}});
@@ -197,13 +198,17 @@ class Answer {
     last_picture_ = Clock::now();
   }
 
-  void say_aspects() {
+  std::optional<report::PageAspects> aspects_of(const std::vector<const result::Result*>& results) const {
     solve::Control control({.time = limits_.analysis_seconds, .memory = limits_.memory, .stop = &stop_});
+    return report::page_aspects(question_, results, limits_.threads, fmt::format("{:g} seconds", limits_.analysis_seconds),
+                                control);
+  }
+
+  void say_aspects() {
     std::vector<const result::Result*> results;
     for (const auto& [set, found] : found_)
       if (found.view) results.push_back(&found.view->result);
-    const auto aspects = report::page_aspects(question_, results, limits_.threads,
-                                              fmt::format("{:g} seconds", limits_.analysis_seconds), control);
+    const auto aspects = aspects_of(results);
     if (stop_) return;
     const std::string unknown =
         "Nothing is known of aspects: they need C-space as a whole, of dimension 1 or 2, and as many inputs as outputs.";
@@ -255,11 +260,9 @@ class Answer {
     }
     if (stop_) return;
     report::PageOptions options{.command = request_.command, .figures = {}, .files = {}};
-    solve::Control control({.time = limits_.analysis_seconds, .memory = limits_.memory, .stop = &stop_});
     std::vector<const result::Result*> results;
     for (const report::SetView& view : views) results.push_back(&view.result);
-    options.aspects = report::page_aspects(question_, results, limits_.threads,
-                                           fmt::format("{:g} seconds", limits_.analysis_seconds), control);
+    options.aspects = aspects_of(results);
     if (stop_) return;
     say({{"event", "report"}, {"name", question_.model.name()}, {"html", report_page(question_.model, views, options)}});
     say({{"event", "done"}, {"complete", complete_}, {"seconds", seconds_since(begin_)}});
@@ -274,7 +277,7 @@ class Answer {
   study::Question question_{symbolic::Mechanism("")};
   symbolic::Derivation derivation_;
   std::map<std::string, Found> found_;
-  std::map<std::string, bool> refused_;
+  std::set<std::string> refused_;
   std::vector<std::string> news_;  // sets found since the last picture
   bool complete_ = true;
 };

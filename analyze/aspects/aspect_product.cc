@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "corank/analyze/topology/topology_with_ends.h"
+#include "corank/analyze/aspects/divided_space.h"
 #include "corank/certify/compiled_system.h"
-#include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/result/values/claim_files.h"
-#include "corank/solve/search/solve.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/free_coordinates.h"
 
@@ -17,43 +15,25 @@ namespace {
 
 constexpr std::size_t kMostRepresentatives = 10'000;
 
-int number_free(const symbolic::TrigonometricSystem& system) {
-  return static_cast<int>(std::ranges::count_if(system.coordinates, [](const auto& c) { return !is_fixed(c); }));
-}
-
-// Of the part the places of functions of each list, among those of the list.
-struct Places {
-  std::array<std::vector<std::size_t>, 3> of_list;
-};
+// Of each list the places of the part's functions among those of the list.
+using Places = std::array<std::vector<std::size_t>, 3>;
 
 // Why nothing is known; empty where something is.
 std::string count_pieces(const symbolic::TrigonometricSystem& equations,
                          const std::array<std::vector<symbolic::Expression>, 3>& functions, const AspectsOptions& options,
                          solve::Control& control, AspectsPart& part, std::vector<std::string>& reached) {
-  part.system = symbolic::algebrize(equations);
-  const solve::Options search{
-      .sigma = solve::kWhole, .threads = options.threads, .proof = options.certificate, .proof_of_parts = false};
-  const auto cover = std::make_shared<Cover>(solve::solve(solve::prepare(part.system, search, control), control));
-  if (!std::ranges::all_of(cover->boxes, is_sheet) || !cover->complete())
-    return control.ended() ? "the analysis was ended by a limit" : "the space of free coordinates could not be covered";
-  part.system = with_single_values(std::move(part.system));
-  part.cover = cover;
-  std::vector<Polynomial> ends;
-  std::uint64_t processed = 0;
-  const std::vector<Limit> touched = limits(part.system, *cover);
-  for (const Limit& limit : touched) ends.push_back(limit.function);
-  if (!touched.empty())
-    for (const Limit& limit : without_unreached(part.system, touched, {.threads = options.threads}, processed, control))
-      reached.push_back(limit.name);
+  const DividedSpace space = divided_space(symbolic::algebrize(equations), options, control);
+  if (!space.reason.empty()) return space.reason;
+  part.system = space.system;
+  part.cover = space.cover;
+  reached.insert(reached.end(), space.limits.begin(), space.limits.end());
   for (std::size_t k = 0; k < part.lists.size(); ++k) {
     for (const symbolic::Expression& f : functions[k]) part.factors[k].push_back(f.text());
     if (k > 0 && part.factors[k] == part.factors[0]) {
       part.lists[k] = part.lists[0];
       continue;
     }
-    SignCells cells(part.system, *cover, symbolic::polynomials(equations, functions[k]), ends,
-                    [&control] { return control.ended(); });
-    cells.refine(options.halvings, options.rounds, control);
+    SignCells cells = cells_of(space, symbolic::polynomials(equations, functions[k]), options, control);
     part.lists[k] = pieces(cells, control);
   }
   return "";
@@ -127,7 +107,7 @@ Pieces product(const std::vector<AspectsPart>& parts, const std::vector<Places>&
       const std::size_t own = rest % p.representatives.size();
       rest /= p.representatives.size();
       at.emplace_back(&parts[k].system, &p.representatives[own]);
-      for (std::size_t i = 0; i < p.signs[own].size(); ++i) signs[places[k].of_list[list][i]] = p.signs[own][i];
+      for (std::size_t i = 0; i < p.signs[own].size(); ++i) signs[places[k][list][i]] = p.signs[own][i];
     }
     result.representatives.push_back(lifting.configuration(at));
     result.signs.push_back(std::move(signs));
@@ -140,13 +120,14 @@ Pieces product(const std::vector<AspectsPart>& parts, const std::vector<Places>&
 bool count_in_free_coordinates(const study::Question& question, const symbolic::TrigonometricSystem& equations,
                                const symbolic::Loci& loci, const AspectsOptions& options, solve::Control& control,
                                Aspects& result) {
+  const std::vector<symbolic::Coordinate>& coordinates = question.model.coordinates();
+  const auto fixed = static_cast<std::size_t>(std::ranges::count_if(coordinates, symbolic::is_fixed));
+  if (coordinates.size() - fixed <= question.model.equations().size() + 2) return false;
   const std::optional<symbolic::FreeCoordinates> free = symbolic::free_coordinates(question.model);
-  if (!free || number_free(free->system) <= 2) return false;
+  if (!free) return false;
   const auto parts = symbolic::independent_parts(*free, loci.all_factors);
   if (!parts) return false;
-  // Of the functions of each list the place among all.
-  std::array<std::vector<std::size_t>, 3> all{{{}, loci.places[0], loci.places[1]}};
-  for (std::size_t i = 0; i < loci.all_factors.size(); ++i) all[0].push_back(i);
+  const Places all = loci.lists();
   std::vector<Places> places;
   for (const symbolic::IndependentPart& part : *parts) {
     AspectsPart& counted = result.product_of.emplace_back();
@@ -155,7 +136,7 @@ bool count_in_free_coordinates(const study::Question& question, const symbolic::
     for (std::size_t k = 0; k < all.size(); ++k)
       for (std::size_t i = 0; i < all[k].size(); ++i) {
         if (std::ranges::find(part.functions, all[k][i]) == part.functions.end()) continue;
-        own.of_list[k].push_back(i);
+        own[k].push_back(i);
         functions[k].push_back(loci.all_factors[all[k][i]]);
       }
     for (const symbolic::Coordinate& c : part.system.coordinates) counted.coordinates.push_back(c.name);

@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "corank/analyze/aspects/aspect_product.h"
-#include "corank/analyze/topology/topology_with_ends.h"
+#include "corank/analyze/aspects/divided_space.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/search/solve.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/determinant_factors.h"
 
@@ -61,38 +60,22 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     return result;
   }
 
-  const solve::Options search{
-      .sigma = solve::kWhole, .threads = options.threads, .proof = options.certificate, .proof_of_parts = false};
-  const Cover cover = solve::solve(solve::prepare(result.system, search, control), control);
-  // A box that a limit has left is no sheet.
-  if (!std::ranges::all_of(cover.boxes, is_sheet)) {
-    result.reason = "C-space is not shown to be smooth in the search domain";
-    return result;
-  }
-  result.system = with_single_values(std::move(result.system));
-  if (!cover.complete() || !is_square_over(result.system, cover.dimension)) {
-    result.reason = control.ended() ? "the analysis was ended by a limit" : "C-space could not be covered";
-    return result;
-  }
-  if (options.certificate) result.cover = std::make_shared<const Cover>(cover);
-  std::vector<Polynomial> ends;
-  const std::vector<Limit> touched = limits(result.system, cover);
-  for (const Limit& limit : touched) ends.push_back(limit.function);
-  std::uint64_t processed = 0;
-  if (!touched.empty())
-    for (const Limit& limit : without_unreached(result.system, touched, {.threads = options.threads}, processed, control))
-      result.limits.push_back(limit.name);
+  const DividedSpace space = divided_space(std::move(result.system), options, control);
+  result.system = space.system;
+  result.reason = space.reason;
+  result.limits = space.limits;
+  if (!result.reason.empty()) return result;
+  if (options.certificate) result.cover = space.cover;
+  const int dimension = space.cover->dimension;
   const auto count = [&](const std::vector<symbolic::Expression>& functions, bool first) {
     if (control.ended()) {
       Pieces unknown;
       unknown.reason = "the analysis was ended by a limit";
       return unknown;
     }
-    SignCells cells(result.system, cover, symbolic::polynomials(equations, functions), ends,
-                    [&control] { return control.ended(); });
-    cells.refine(options.halvings, options.rounds, control);
+    SignCells cells = cells_of(space, symbolic::polynomials(equations, functions), options, control);
     Pieces found = pieces(cells, control);
-    const bool plane = cover.dimension == 2 && options.images.size() == 2 && found.exact();
+    const bool plane = dimension == 2 && options.images.size() == 2 && found.exact();
     const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
     if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
     if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn, ended);
@@ -101,7 +84,7 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     return found;
   };
   result.aspects = count(loci.all_factors, true);
-  if (result.cusps && cover.dimension == 2 && result.limits.empty())
+  if (result.cusps && dimension == 2 && result.limits.empty())
     check_parity(question, options.threads, control, *result.cusps);
   add_determinant_signs(equations, loci, result);
   result.assembly_modes = count(loci.factors[0], false);

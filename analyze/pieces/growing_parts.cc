@@ -121,18 +121,27 @@ bool SignCells::climbs(const SignCell& cell, const std::map<int, double>& sizes,
   return proof_.slopes(with_low, s) && grows(with_low, s, signs);
 }
 
-std::vector<std::size_t> SignCells::hiding_places(const std::vector<std::size_t>& cells,
-                                                  const std::vector<int>& signs) const {
+// The directions, as bits, that all of these cells have for a choice of signs of each.
+template <class Choice>
+std::uint64_t SignCells::common_directions(const std::vector<std::size_t>& cells, const Choice& choice) const {
   const SignCell& first = cells_[cells.front()];
   std::uint64_t common = ~std::uint64_t{0};
+  for (const std::size_t c : cells) {
+    const SignCell& cell = cells_[c];
+    common &= cell.box == first.box && cell.mixed == first.mixed ? cell.directions[choice(cell)] : 0;
+  }
+  return common;
+}
+
+std::vector<std::size_t> SignCells::hiding_places(const std::vector<std::size_t>& cells,
+                                                  const std::vector<int>& signs) const {
+  if (common_directions(cells, [&](const SignCell& cell) { return choice(cell, signs); }) != 0) return {};
   bool ascend = true;
-  std::vector<int> in_all = first.mixed;
+  std::vector<int> in_all = cells_[cells.front()].mixed;
   std::array<std::map<int, double>, 2> sizes;  // the largest and the smallest
   for (const std::size_t c : cells) {
     const SignCell& cell = cells_[c];
-    const std::size_t k = choice(cell, signs);
-    common &= cell.box == first.box && cell.mixed == first.mixed ? cell.directions[k] : 0;
-    ascend = ascend && (cell.ascends >> k & 1) != 0;
+    ascend = ascend && (cell.ascends >> choice(cell, signs) & 1) != 0;
     std::erase_if(in_all, [&](int f) { return std::ranges::find(cell.mixed, f) == cell.mixed.end(); });
     for (const int f : cell.mixed) {
       const double size = cell.range[f].mag();
@@ -140,7 +149,7 @@ std::vector<std::size_t> SignCells::hiding_places(const std::vector<std::size_t>
       sizes[1][f] = std::min(sizes[1].emplace(f, size).first->second, size);
     }
   }
-  if (common != 0 || (ascend && !in_all.empty())) return {};
+  if (ascend && !in_all.empty()) return {};
   // K: all, or all but one.
   const UpwardRounding rounding;
   const auto open = [&](const std::map<int, double>& of) {
@@ -153,6 +162,7 @@ std::vector<std::size_t> SignCells::hiding_places(const std::vector<std::size_t>
     if (std::vector<std::size_t> fewer = open(of); fewer.size() < result.size()) result = std::move(fewer);
   };
   for (const std::map<int, double>& all : sizes) {
+    if (result.empty()) break;
     keep_fewer(all);
     for (auto k = all.begin(); k != all.end() && all.size() > 1 && !result.empty(); ++k) {
       std::map<int, double> others = all;
@@ -165,13 +175,8 @@ std::vector<std::size_t> SignCells::hiding_places(const std::vector<std::size_t>
 
 // Have the cells no direction in common for some choice of signs?
 bool SignCells::differ_in_directions(const std::vector<std::size_t>& cells) const {
-  const SignCell& first = cells_[cells.front()];
-  for (std::size_t k = 0; k < first.directions.size(); ++k) {
-    std::uint64_t common = ~std::uint64_t{0};
-    for (const std::size_t c : cells)
-      common &= cells_[c].box == first.box && cells_[c].mixed == first.mixed ? cells_[c].directions[k] : 0;
-    if (common == 0) return true;
-  }
+  for (std::size_t k = 0; k < SignCell{}.directions.size(); ++k)
+    if (common_directions(cells, [k](const SignCell&) { return k; }) == 0) return true;
   return false;
 }
 

@@ -291,7 +291,8 @@ class PieceCounter {
 
   // Which parts are passages, in as large classes as add no piece: those that are nothing else, and those of a class of
   // connected parts that is joined to no cell without mixed functions, such as a corner that no link was found to.
-  std::vector<bool> passages() {
+  // `hidden`: a piece may lie in some that are nothing else.
+  std::vector<bool> passages(bool& hidden) {
     std::vector<bool> result;
     std::map<std::size_t, bool> passes;  // of each class of connected parts
     for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -303,9 +304,10 @@ class PieceCounter {
     for (bool found = true; found;) {
       for (std::size_t p = 0; p < parts_.size(); ++p)
         if (parts_[p].kind == Kind::connected) result[p] = passes.at(proven_.find_set(p));
-      found = false;
+      found = hidden = false;
       for (const std::vector<std::size_t>& cluster : clusters(result)) {
         const std::vector<std::size_t> open = in_the_way(cluster);
+        hidden = hidden || !open.empty();
         const auto is_connected = [&](std::size_t p) { return parts_[p].kind == Kind::connected; };
         const bool any = std::ranges::any_of(open, is_connected);
         for (const std::size_t p : any || open.empty() ? open : cluster)
@@ -339,14 +341,15 @@ class PieceCounter {
   }
 
   void upper_bound(Pieces& result) {
-    bool hidden = control_.ended();
+    const bool ended = control_.ended();
     const auto unresolved = std::ranges::count_if(cells_.cells(), [](const SignCell& cell) { return !cell.resolved; });
     if (unresolved > 0) {
       result.reason = std::to_string(unresolved) + " cells next to singularities that are not resolved";
       return;
     }
-    const std::vector<bool> passes = passages();
-    for (const std::vector<std::size_t>& cluster : clusters(passes)) hidden = hidden || !in_the_way(cluster).empty();
+    bool hidden = false;
+    const std::vector<bool> passes = passages(hidden);
+    hidden = hidden || ended;
     std::set<std::size_t> classes;
     for (std::size_t p = 0; p < parts_.size(); ++p)
       if (!passes[p]) classes.insert(proven_.find_set(p));

@@ -46,8 +46,8 @@ class SignCells {
             const std::vector<Polynomial>& limits = {}, const Ended& ended = {});
 
   /// Divides cells until they are resolved, or the number of halvings of a box is reached; then, so many times, those that
-  /// the third lemma resolves and in which a piece might hide (hiding_places) are divided further: a sheet
-  /// of their own is put over them where one is proven.
+  /// the third lemma resolves and in which a piece might hide (hiding_places): a sheet of their own is put over them where
+  /// one is proven.
   void refine(int halvings, int rounds, solve::Control& control);
 
   const std::vector<SignCell>& cells() const { return cells_; }
@@ -97,6 +97,8 @@ class SignCells {
   bool resolve(SignCell& cell);
   std::optional<std::vector<SignCell>> halves(const SignCell& cell);
   bool is_covered_before(const SignCell& cell) const;
+  template <class Choice>
+  std::uint64_t common_directions(const std::vector<std::size_t>& cells, const Choice& choice) const;
   bool differ_in_directions(const std::vector<std::size_t>& cells) const;
   std::vector<std::vector<std::size_t>> touching_passages();
   std::optional<SignCell> sheet_over(const std::vector<std::size_t>& cells);

@@ -6,21 +6,13 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "corank/result/values/words.h"
+#include "corank/symbolic/writing/line_breaks.h"
+
 namespace corank::report {
 namespace {
 
 using Row = std::array<std::string, 6>;
-
-std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-template <class Visit>
-void for_each_number(const GalleryResult& result, const Visit& visit) {
-  for (std::size_t q = 0; q < result.findings.size(); ++q)
-    for (std::size_t k = 0; k < result.findings[q].size(); ++k)
-      visit(result.entry.questions[q].expect[k], result.findings[q][k], result.runs[q], k == 0);
-}
 
 }  // namespace
 
@@ -51,9 +43,8 @@ GallerySums sums_of(const std::vector<GalleryResult>& results) {
 }
 
 std::string to_words(const GallerySums& sums) {
-  std::string words =
-      fmt::format("{} {} with {} published {}: {} proven", sums.entries, sums.entries == 1 ? "entry" : "entries",
-                  sums.numbers, sums.numbers == 1 ? "number" : "numbers", sums.proven);
+  std::string words = fmt::format("{} with {} published {}: {} proven", result::counted(sums.entries, "entry"), sums.numbers,
+                                  result::noun(sums.numbers, "number"), sums.proven);
   const auto add = [&words](std::size_t n, const char* what) {
     if (n > 0) words += fmt::format(", {} {}", n, what);
   };
@@ -74,11 +65,12 @@ std::string gallery_table(const std::vector<GalleryResult>& results) {
     });
   std::array<std::size_t, 6> widths{};
   for (const Row& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], characters(row[k]));
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], symbolic::columns(row[k]));
   std::string text;
   for (const Row& row : rows) {
     std::string line;
-    for (std::size_t k = 0; k < row.size(); ++k) line += row[k] + std::string(widths[k] - characters(row[k]) + 2, ' ');
+    for (std::size_t k = 0; k < row.size(); ++k)
+      line += row[k] + std::string(widths[k] - symbolic::columns(row[k]) + 2, ' ');
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }

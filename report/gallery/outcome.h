@@ -25,6 +25,13 @@ struct GallerySums {
   std::size_t entries = 0, numbers = 0, proven = 0, agree = 0, contradictions = 0, open = 0, surprises = 0, failures = 0;
 };
 GallerySums sums_of(const std::vector<GalleryResult>& results);
+/// Calls visit(expectation, finding, run, is it the question's first) for each number of an entry.
+template <class Visit>
+void for_each_number(const GalleryResult& result, const Visit& visit) {
+  for (std::size_t q = 0; q < result.findings.size(); ++q)
+    for (std::size_t k = 0; k < result.findings[q].size(); ++k)
+      visit(result.entry.questions[q].expect[k], result.findings[q][k], result.runs[q], k == 0);
+}
 /// "28 entries with 61 published numbers: 57 proven, 2 agree, 2 open"
 std::string to_words(const GallerySums& sums);
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "corank/report/html/page_assets.h"
@@ -21,11 +19,6 @@ namespace corank::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of_file(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// A word for CSS and for a reader: ok, agrees, contradiction, open or failed.
 std::string look_of(Standing standing) {
@@ -91,17 +84,14 @@ TemplateData number_row(const Expectation& e, const GalleryFinding& finding, con
 
 TemplateData rows_of(const GalleryResult& result) {
   TemplateData rows = empty_list();
-  std::size_t size = 0;
-  for (const auto& of_question : result.findings) size += of_question.size();
+  const std::size_t size = sums_of({result}).numbers;
   bool first_row = true;
-  for (std::size_t q = 0; q < result.findings.size(); ++q) {
-    for (std::size_t k = 0; k < result.findings[q].size(); ++k) {
-      TemplateData row = number_row(result.entry.questions[q].expect[k], result.findings[q][k], result.runs[q], k == 0);
-      if (first_row) row["head"] = TemplateData{"rows", std::to_string(size)};
-      first_row = false;
-      rows << row;
-    }
-  }
+  for_each_number(result, [&](const Expectation& e, const GalleryFinding& finding, const GalleryRun& run, bool first) {
+    TemplateData row = number_row(e, finding, run, first);
+    if (first_row) row["head"] = TemplateData{"rows", std::to_string(size)};
+    first_row = false;
+    rows << row;
+  });
   return rows;
 }
 
@@ -144,7 +134,7 @@ TemplateData section_of(const GalleryResult& result, const fs::path& folder, Tem
   section["derived"] = if_any(entry.derived);
   section["open"] = if_any(entry.open);
   section["model"] = entry.shown_model;
-  section["modelText"] = text_of_file(entry.model);
+  section["modelText"] = result::file_bytes(entry.model);
   section["report"] = if_any(fs::exists(result.folder / "page" / "index.html") ? link + "/page/index.html" : "");
   section["problems"] = list_of("problem", result.problems);
   for (std::size_t k = 0; k < entry.robots.size(); ++k) {
@@ -159,7 +149,7 @@ TemplateData section_of(const GalleryResult& result, const fs::path& folder, Tem
     robots << script;
   }
   for (const GalleryPicture& picture : entry.pictures) {
-    const std::string svg = text_of_file(result.folder / picture.file);
+    const std::string svg = result::file_bytes(result.folder / picture.file);
     if (svg.empty()) continue;
     TemplateData item{"svg", base64({reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()})};
     item["caption"] = picture.caption;

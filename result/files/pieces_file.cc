@@ -1,6 +1,4 @@
 // The file of the pieces of a C-space.
-#include <numeric>
-
 #include "corank/result/files/cover_group.h"
 #include "corank/result/files/source_group.h"
 #include "corank/symbolic/model/model_file.h"
@@ -39,9 +37,7 @@ class Spaces {
     // Of a factor no configuration is known, and no sign of a determinant.
     if (pieces.coordinates.empty())
       matrices = {polynomials(system, loci().matrices[0]), polynomials(system, loci().matrices[1])};
-    std::vector<std::size_t> all(loci().all_factors.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const std::array<std::vector<std::size_t>, 3> lists{all, loci().places[0], loci().places[1]};
+    const auto lists = loci().lists();
     std::vector<check::PieceFunctions> result;
     for (std::size_t k = 0; k < lists.size(); ++k) {
       std::vector<symbolic::Expression> own;

@@ -347,4 +347,9 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   target.finish();
 }
 
+std::string file_bytes(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 }  // namespace corank::result

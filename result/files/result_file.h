@@ -60,4 +60,7 @@ Result read_result(const std::string& name, std::span<const std::byte> items);
 /// Writes a text in the same way. Throws ResultFileError.
 void write_text(const std::filesystem::path& path, const std::string& text);
 
+/// All of a file; empty where it cannot be read.
+std::string file_bytes(const std::filesystem::path& path);
+
 }  // namespace corank::result

@@ -1,6 +1,7 @@
 #include "corank/symbolic/sets/determinant_factors.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "corank/symbolic/velocity/exact_matrix.h"
 
@@ -36,6 +37,12 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
 
 ExpressionMatrix locked_matrix(const Mechanism& mechanism, SingularitySet set) {
   return kernel_question(mechanism, set, KernelSide::left).matrix;
+}
+
+std::array<std::vector<std::size_t>, 3> Loci::lists() const {
+  std::vector<std::size_t> all(all_factors.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return {all, places[0], places[1]};
 }
 
 Loci singularity_loci(const Mechanism& mechanism, const Ended& ended) {

@@ -32,6 +32,9 @@ struct Loci {
   std::array<std::vector<Expression>, 2> factors;    ///< of their determinants
   std::vector<Expression> all_factors;               ///< of both, each once
   std::array<std::vector<std::size_t>, 2> places{};  ///< of the factors of each among all
+
+  /// Of the functions that divide C-space into aspects, assembly modes and working modes, the places among all factors.
+  std::array<std::vector<std::size_t>, 3> lists() const;
 };
 /// Throws as determinant_factors() does, and where the model has no inputs or outputs.
 Loci singularity_loci(const Mechanism& mechanism, const Ended& ended = {});

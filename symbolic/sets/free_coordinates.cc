@@ -28,13 +28,18 @@ std::set<std::string> unit_vectors(const Mechanism& mechanism, const std::vector
   for (const Relation& r : given)
     if (mechanism.coordinates()[mechanism.find_coordinate(r.lhs.name())].auxiliary)
       components[vector_of(r.lhs.name())].push_back(r.lhs);
-  std::set<std::string> result;
+  // The squares' sums less 1, on a diagonal.
+  ExpressionMatrix sums;
   for (const auto& [name, list] : components) {
-    Expression sum(-1);
+    Expression& sum = sums.rows.emplace_back(components.size(), Expression(0))[sums.columns.size()];
+    sum = Expression(-1);
     for (const Expression& x : list) sum = sum + pow(x, 2);
-    const ExactMatrix matrix(mechanism, {{"sum"}, {{sum}}}, residuals(mechanism));
-    if (matrix.in_free_coordinates(matrix.determinant({{0}, {0}})).is_zero()) result.insert(name);
+    sums.columns.push_back(name);
   }
+  const ExactMatrix matrix(mechanism, sums, residuals(mechanism));
+  std::set<std::string> result;
+  for (std::size_t k = 0; k < sums.columns.size(); ++k)
+    if (matrix.in_free_coordinates(matrix.determinant({{k}, {k}})).is_zero()) result.insert(sums.columns[k]);
   return result;
 }
 

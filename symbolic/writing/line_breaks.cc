@@ -16,13 +16,6 @@ struct Break {
   int depth;               // of parentheses and brackets
 };
 
-// What does not count as a column: the bytes of a character of UTF-8 behind its first.
-std::size_t columns(std::string_view text) {
-  std::size_t count = 0;
-  for (const char c : text) count += (static_cast<unsigned char>(c) & 0xC0U) == 0x80U ? 0 : 1;
-  return count;
-}
-
 std::vector<Break> breaks(std::string_view text) {
   std::vector<Break> list;
   int depth = 0;
@@ -59,6 +52,13 @@ std::string for_each_line(const std::string& text, const std::function<std::stri
 }
 
 }  // namespace
+
+// What does not count as a column: the bytes of a character of UTF-8 behind its first.
+std::size_t columns(std::string_view text) {
+  std::size_t count = 0;
+  for (const char c : text) count += (static_cast<unsigned char>(c) & 0xC0U) == 0x80U ? 0 : 1;
+  return count;
+}
 
 std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(width, text.size()), ' ');

@@ -5,11 +5,14 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace corank::symbolic {
 
 inline constexpr std::size_t kLineWidth = 100;  ///< columns; a single term may be longer
 
+/// The characters of UTF-8.
+std::size_t columns(std::string_view text);
 /// With blanks behind it, in bytes.
 std::string padded(std::string text, std::size_t width);
 /// A comment must stay on its line: line ends become blanks.
