@@ -2,6 +2,7 @@
 #   cmake -DPAGE=<report/page> -DTHREE=<three.js> -DMODULES=a.js,b.js -DFAMILY_MODULES=a.js,c.js -DPATH_MODULES=a.js,d.js
 #         -DGALLERY_MODULES=a.js,e.js -DSTUDIO_MODULES=a.js,f.js -DOUTPUT=<page_assets.cc> -P EmbedPage.cmake
 # The modules of a page become one: their imports of one another and the word `export` go, so names are distinct over all of them.
+# How a page begins and ends, {{>head}} and {{>end}}, is in files of its own.
 function(literal name text)
   set(result "const std::string_view ${name} = R\"corank_page(${text})corank_page\";\n\n" PARENT_SCOPE)
 endfunction()
@@ -29,6 +30,12 @@ file(READ "${PAGE}/gallery.html" gallery)
 file(READ "${PAGE}/gallery.css" gallery_style)
 file(READ "${PAGE}/studio.html" studio)
 file(READ "${PAGE}/studio.css" studio_style)
+file(READ "${PAGE}/head.html" head)
+file(READ "${PAGE}/end.html" end)
+foreach(page template family path gallery studio)
+  string(REPLACE "{{>head}}\n" "${head}" ${page} "${${page}}")
+  string(REPLACE "{{>end}}\n" "${end}" ${page} "${${page}}")
+endforeach()
 file(READ "${THREE}" three)
 join(script "${MODULES}")
 join(family_script "${FAMILY_MODULES}")
