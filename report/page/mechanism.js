@@ -47,7 +47,21 @@ export function evaluateTree(tree, values, rates) {
   }
 }
 
-// Points of the drawing, flattened to the plane: spatial ones are seen from above a corner. Their own coordinates are in `place` and
+// To the right and up in a flat picture, along the axes of the drawing: spatial ones are seen from above a corner.
+export const flatView = (dimension) =>
+  dimension === 2
+    ? [
+        [1, 0],
+        [0, 1],
+      ]
+    : [
+        [0.866, -0.866, 0],
+        [-0.2885, -0.2885, 1],
+      ];
+
+export const dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
+
+// Points of the drawing, flattened to the plane. Their own coordinates are in `place` and
 // `motion`.
 export function drawnPoints(model, values, rates = {}) {
   // The ends of rails, of axes and of solids have no meaning of their own.
@@ -60,12 +74,9 @@ export function drawnPoints(model, values, rates = {}) {
       const [place, speed] = evaluateTree(tree, values, rates);
       return [place, point.moves ? evaluateTree(point.moves[k], own, {})[0] : speed];
     });
-    const flat = (k) =>
-      at.length === 2
-        ? [at[0][k], at[1][k]]
-        : [0.866 * (at[0][k] - at[1][k]), at[2][k] - 0.5 * (at[0][k] + at[1][k]) * 0.577];
     const [place, motion] = [0, 1].map((k) => at.map((dual) => dual[k]));
-    return {label: point.label, named: named.has(i), position: flat(0), velocity: flat(1), place, motion};
+    const [position, velocity] = [place, motion].map((of) => flatView(at.length).map((along) => dot(along, of)));
+    return {label: point.label, named: named.has(i), position, velocity, place, motion};
   });
 }
 
@@ -95,10 +106,12 @@ export function drawingWindow(model, configurations) {
   return [x0, y0, x1, y1];
 }
 
+export const flatWidth = 400; // of the picture, in its own units
+
 // Draws into an <svg>, replacing what it holds. `rates` may be null: no arrows.
 export function drawMechanism(svg, model, values, rates, view, options = {}) {
   const [x0, y0, x1, y1] = view;
-  const width = 400,
+  const width = flatWidth,
     scale = width / (x1 - x0),
     height = scale * (y1 - y0);
   const unit = options.unit || 1; // thicknesses, in a picture of width 400

@@ -89,6 +89,19 @@ export class Orbit {
     return [((at.x + 1) / 2) * width, ((1 - at.y) / 2) * height];
   }
 
+  // The view's directions to the right and up, and how far a point has to go along them to be seen at a place of the canvas.
+  towards(point, [x, y]) {
+    const {clientWidth: width, clientHeight: height} = this.renderer.domElement,
+      {camera} = this;
+    camera.updateMatrixWorld();
+    const from = point.clone().applyMatrix4(camera.matrixWorldInverse);
+    const to = new THREE.Vector3((2 * x) / width - 1, 1 - (2 * y) / height, 0.5).applyMatrix4(camera.projectionMatrixInverse);
+    to.multiplyScalar(from.z / to.z);
+    const axes = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
+    camera.matrixWorld.extractBasis(...axes);
+    return {directions: axes.slice(0, 2).map((axis) => axis.toArray()), shift: [to.x - from.x, to.y - from.y]};
+  }
+
   // Arrow keys turn the view, + and − zoom.
   key(event) {
     const turns = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};

@@ -1,5 +1,5 @@
 // Draws the mechanism in space at a configuration, with velocities as arrows; it can be turned and zoomed.
-import {drawLabels, drawnPoints} from "./mechanism.js";
+import {dot, drawLabels, drawnPoints} from "./mechanism.js";
 import {Orbit} from "./orbit.js";
 import {Solids, isPlace, pageMaterials} from "./solids.js";
 import {litScene} from "./stage.js";
@@ -121,6 +121,29 @@ export class SpatialMechanism {
 
   toScene(place) {
     return place.clone().sub(this.middle).multiplyScalar(this.scale);
+  }
+
+  // As of a flat picture (mechanism_picture.js). What is dragged stays as deep as it is.
+  get grip() {
+    return 24;
+  }
+  get typicalLength() {
+    return 0.5 / this.scale;
+  }
+  onScreen(points) {
+    const {left, top} = this.orbit.renderer.domElement.getBoundingClientRect();
+    return points.map(({place}) => {
+      const [x, y] = this.orbit.project(this.toScene(new THREE.Vector3(...place)));
+      return [left + x, top + y];
+    });
+  }
+  under(place, [x, y]) {
+    const {left, top} = this.orbit.renderer.domElement.getBoundingClientRect();
+    const {directions, shift} = this.orbit.towards(this.toScene(new THREE.Vector3(...place)), [x - left, y - top]);
+    return {
+      directions,
+      goals: directions.map((along, k) => dot(along, place) + shift[k] / this.scale),
+    };
   }
 
   // The scene, in the colours of the theme.

@@ -4,8 +4,7 @@ import {Motion, boxAt, clearanceOf} from "./studio_motion.js";
 import {drawnPoints} from "./mechanism.js";
 import {coordinateTable, coordinateValue, coordinateValues, htmlLabel, numberText} from "./values.js";
 
-const grip = 60, // how near to a joint a pointer has to be, in a picture of width 400
-  hold = 16, // to the mark in a portrait, in pixels
+const hold = 16, // how near to the mark in a portrait a pointer has to be, in pixels
   nudge = 6; // pixels of a portrait that a key moves the mechanism
 const names = {forward: "a forward singularity", inverse: "an inverse singularity"};
 
@@ -20,6 +19,11 @@ export class Bench {
     this.dragging = null;
     this.listenToPicture(root.querySelector(".picture"));
     portraits.forEach((portrait) => this.listenToPortrait(portrait));
+  }
+
+  // Of the coordinates where it stands, in a list that is empty where it stands nowhere.
+  get values() {
+    return this.x ? [coordinateValues(this.model, this.x)] : [];
   }
 
   get cspace() {
@@ -107,8 +111,7 @@ export class Bench {
   }
 
   moveNow(target) {
-    const window = this.panel.picture.window;
-    const result = this.motion.move(this.x, target, window ? Math.max(window[2] - window[0], window[3] - window[1]) / 4 : 1);
+    const result = this.motion.move(this.x, target, this.panel.picture.typicalLength);
     this.show(result);
     if (result.crossed.length > 0) this.warn(result.crossed);
     return result;
@@ -141,32 +144,42 @@ export class Bench {
     this.panel.showState();
   }
 
-  listenToPicture(root) {
-    const place = (event) => {
-      const {svg, window} = this.panel.picture;
-      if (!svg || !window || !svg.getScreenCTM()) return null; // in space a pointer turns the view
-      const {x, y} = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
-      const scale = 400 / (window[2] - window[0]);
-      return {at: [window[0] + x / scale, window[3] - y / scale], scale};
-    };
-    root.addEventListener("pointerdown", (event) => {
-      const where = this.x && place(event);
-      if (!where) return;
-      let best = null;
-      drawnPoints(this.model, coordinateValues(this.model, this.x)).forEach(({position, named}, i) => {
-        const far = Math.hypot(position[0] - where.at[0], position[1] - where.at[1]) * where.scale;
-        const fixed = this.model.drawing.points[i].at.every((tree) => typeof tree === "number");
-        if (named && !fixed && far < grip && (!best || far < best.far)) best = {i, far};
-      });
-      if (!best) return;
-      event.preventDefault();
-      root.setPointerCapture(event.pointerId);
-      this.begin();
-      this.dragging = {point: best.i};
+  // The point that a pointer can take hold of: {point, off}, or null. `off`: in pixels from the pointer to it.
+  pointAt(event) {
+    const {picture} = this.panel,
+      points = this.values.flatMap((values) => drawnPoints(this.model, values));
+    let best = null,
+      nearest = picture.grip;
+    picture.onScreen(points).forEach(([x, y], point) => {
+      const off = [x - event.clientX, y - event.clientY],
+        far = Math.hypot(...off);
+      const fixed = this.model.drawing.points[point].at.every((tree) => typeof tree === "number");
+      if (points[point].named && !fixed && far < nearest) [best, nearest] = [{point, off}, far];
     });
+    return best;
+  }
+
+  listenToPicture(root) {
+    // Before the picture in space sees it: there a pointer on nothing turns the view.
+    root.addEventListener(
+      "pointerdown",
+      (event) => {
+        const found = this.pointAt(event);
+        if (!found) return;
+        event.preventDefault();
+        event.stopPropagation();
+        root.setPointerCapture(event.pointerId);
+        this.begin();
+        this.dragging = found;
+      },
+      true,
+    );
     root.addEventListener("pointermove", (event) => {
       if (this.dragging?.point === undefined) return;
-      this.moveTo(this.motion.ofPoint(this.dragging.point, place(event).at));
+      const {point, off} = this.dragging,
+        {place} = drawnPoints(this.model, coordinateValues(this.model, this.x))[point];
+      const pixels = [event.clientX + off[0], event.clientY + off[1]];
+      this.moveTo(this.motion.ofPoint(point, this.panel.picture.under(place, pixels)));
     });
     for (const name of ["pointerup", "pointercancel"])
       root.addEventListener(name, () => this.dragging?.point !== undefined && this.end());

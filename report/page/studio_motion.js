@@ -1,6 +1,6 @@
 // Moves a configuration along C-space, in floating point: towards a place of a drawn point or values of coordinates, on the assembly
 // mode that it has. Newton's method brings each step back onto the constraints; how far it is from them is the residual.
-import {drawnPoints, evaluateTree} from "./mechanism.js";
+import {dot, drawnPoints, evaluateTree} from "./mechanism.js";
 import {evaluatePolynomial, ontoSolutions} from "./newton.js";
 import {coordinateValues, isAngle} from "./values.js";
 
@@ -37,7 +37,7 @@ function eliminate(a, n) {
 // Solves the small system (A Aᵀ + μ) y = e for y; A: rows.
 function solveRows(rows, e, damping) {
   const m = rows.length;
-  const a = rows.map((row, i) => [...rows.map((other) => row.reduce((sum, x, k) => sum + x * other[k], 0)), e[i]]);
+  const a = rows.map((row, i) => [...rows.map((other) => dot(row, other)), e[i]]);
   const trace = a.reduce((sum, row, i) => sum + row[i], 0);
   for (let i = 0; i < m; ++i) a[i][i] += damping * (trace / m + 1e-12);
   for (let k = 0; k < m; ++k) {
@@ -54,23 +54,24 @@ function solveRows(rows, e, damping) {
   return a.map((row, i) => (Math.abs(row[i]) > 1e-14 ? row[m] / row[i] : 0));
 }
 
-// An orthonormal basis of the space of the rows (Gram and Schmidt, twice).
-function orthonormal(rows) {
-  const basis = [];
+// Of the rows, what is orthogonal to an orthonormal basis and to each other (Gram and Schmidt, twice).
+function orthonormal(rows, basis = []) {
+  const found = [];
   for (const row of rows) {
     const v = Float64Array.from(row),
       size = Math.hypot(...v);
     if (!(size > 0)) continue;
-    for (let twice = 0; twice < 2; ++twice) {
-      for (const b of basis) {
-        const along = b.reduce((sum, x, k) => sum + x * v[k], 0);
-        for (let k = 0; k < v.length; ++k) v[k] -= along * b[k];
-      }
-    }
+    for (let twice = 0; twice < 2; ++twice) for (const b of [...basis, ...found]) removePart(v, b);
     const rest = Math.hypot(...v);
-    if (rest > 1e-9 * size) basis.push(v.map((x) => x / rest));
+    if (rest > 1e-9 * size) found.push(v.map((x) => x / rest));
   }
-  return basis;
+  return found;
+}
+
+// v −= (v · b) b
+function removePart(v, b) {
+  const part = dot(v, b);
+  for (let k = 0; k < v.length; ++k) v[k] -= part * b[k];
 }
 
 export class Motion {
@@ -123,16 +124,18 @@ export class Motion {
     };
   }
 
-  // A target for a point of the drawing, in the plane of the picture.
-  ofPoint(index, [u, v]) {
+  // A target for a point of the drawing: how far it is to be along some directions.
+  ofPoint(index, {directions, goals}) {
     const point = this.model.drawing.points[index];
     return (x) => {
       const values = coordinateValues(this.model, x);
-      const {position} = drawnPoints(this.model, values)[index];
-      const slopes = point.at.map(() => ({}));
-      for (const {name} of this.model.coordinates)
-        point.at.forEach((tree, k) => (slopes[k][name] = evaluateTree(tree, values, {[name]: 1})[1]));
-      return [u, v].map((goal, k) => ({off: goal - position[k], row: this.row(x, slopes[k])}));
+      const {place} = drawnPoints(this.model, values)[index];
+      const slopes = directions.map(() => ({}));
+      for (const {name} of this.model.coordinates) {
+        const motion = point.at.map((tree) => evaluateTree(tree, values, {[name]: 1})[1]);
+        directions.forEach((along, k) => (slopes[k][name] = dot(along, motion)));
+      }
+      return goals.map((goal, k) => ({off: goal - dot(directions[k], place), row: this.row(x, slopes[k])}));
     };
   }
 
@@ -141,18 +144,18 @@ export class Motion {
   move(start, target, scale = 1) {
     let now = this.onto(start);
     const crossed = new Set();
-    let signs = this.signs(now.x);
-    let distance = Infinity;
+    let tangents = this.tangents(now.x),
+      signs = this.signs(now.x, tangents),
+      distance = Infinity;
     for (let round = 0; round < rounds; ++round) {
       const rows = target(now.x);
       const before = Math.hypot(...rows.map(({off}) => off));
       if (before < 1e-12 * scale) break;
-      const basis = orthonormal(this.jacobian(now.x));
       const along = rows.map(({row}) => {
-        const v = Float64Array.from(row);
-        for (const b of basis) {
-          const part = b.reduce((sum, y, k) => sum + y * v[k], 0);
-          for (let k = 0; k < v.length; ++k) v[k] -= part * b[k];
+        const v = new Float64Array(row.length);
+        for (const t of tangents) {
+          const part = dot(t, row);
+          for (let k = 0; k < v.length; ++k) v[k] += part * t[k];
         }
         return v;
       });
@@ -179,7 +182,8 @@ export class Motion {
       }
       if (!next) break;
       now = next;
-      const then = this.signs(now.x);
+      tangents = this.tangents(now.x, tangents);
+      const then = this.signs(now.x, tangents);
       for (const kind of Object.keys(then)) {
         if (signs[kind] && then[kind] && (then[kind].least < singular || then[kind].sign * signs[kind].sign < 0))
           crossed.add(kind);
@@ -202,41 +206,29 @@ export class Motion {
     });
   }
 
-  // The signs of det L_y and det L_z where these matrices are square, with how near to 0: {forward, inverse}.
-  signs(x) {
-    const {coordinates} = this.model;
-    const jacobian = this.jacobian(x);
-    // By coordinates: of an angle along its circle. Equations of the circles say nothing then.
-    const columnOf = (row, c) => (isAngle(c) ? x[c.cosine] * row[c.sine] - x[c.sine] * row[c.cosine] : row[c.index]);
-    const circles = coordinates.filter(isAngle).length;
-    const rows = jacobian.filter((_, i) => !this.isCircle(i));
+  // An orthonormal basis of the velocities at x. One that begins with a former one keeps its orientation along a way.
+  tangents(x, former = null) {
+    const units = Array.from(x, (_, j) => Float64Array.from(x, (_, k) => (j === k ? 1 : 0)));
+    return orthonormal(former ?? units, orthonormal(this.jacobian(x)));
+  }
+
+  // Of the matrices that take velocities to the rates of the inputs and of the outputs, where square: the sign of the determinant,
+  // which is 0 at a forward and at an inverse singularity, with how near to 0: {forward, inverse}.
+  signs(x, tangents) {
     const found = {};
-    if (this.model.rates || rows.length !== jacobian.length - circles) return found;
-    for (const [kind, locked] of [
+    for (const [kind, role] of [
       ["forward", "input"],
       ["inverse", "output"],
     ]) {
-      const free = coordinates.filter(({role}) => role !== locked);
-      if (free.length !== rows.length || free.length === coordinates.length) continue;
+      const moved = this.model.coordinates.filter((c) => c.role === role);
+      // With rates of its own an output's velocity is not the rate of a coordinate.
+      if (moved.length !== tangents.length || (kind === "inverse" && this.model.rates)) continue;
       found[kind] = eliminate(
-        rows.map((row) => free.map((c) => columnOf(row, c))),
-        free.length,
+        moved.map(({name}) => tangents.map((velocity) => dot(this.row(x, {[name]: 1}), velocity))),
+        moved.length,
       );
     }
     return found;
-  }
-
-  // Is a constraint c² + s² = 1 of an angle?
-  isCircle(i) {
-    this.circles ??= this.model.constraints.map((equation) =>
-      this.model.coordinates.some(
-        (c) =>
-          isAngle(c) &&
-          equation.length === 3 &&
-          equation.every((m) => m.length === 1 || (m.length === 4 && m[2] === 2 && (m[1] === c.cosine || m[1] === c.sine))),
-      ),
-    );
-    return this.circles[i];
   }
 }
 

@@ -39,7 +39,7 @@ export class Sights {
     const base = filled.find(({singular}) => !singular) ?? filled[0];
     document.body.classList.toggle("undrawn", model.drawing.points.length === 0);
     if (!this.samples || !model.partial) this.samples = sampleConfigurations(model, base, samplesOfSet);
-    const everywhere = this.samples.map(({values}) => values);
+    const everywhere = [...this.samples.map(({values}) => values), ...(this.bench?.values ?? [])];
     if (!this.panel) this.build(model, order, everywhere);
     else {
       for (const [role, portrait] of this.views) portrait.setModel(model, firstOf(order, model, role));
