@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "corank/analyze/maps/parameter_map.h"
+#include "corank/analyze/postures/posture_map.h"
 #include "corank/app/exit_status.h"
 #include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
@@ -23,6 +24,7 @@ namespace {
 struct MapCommand {
   QuestionOptions question;
   std::vector<std::string> over, fixed;
+  std::string orientation, orientation_of;
   std::string count = "solutions";
   analyze::ParameterMapOptions options{.resolution = 64, .boundary = true, .threads = 0, .progress = {}};
   bool no_boundary = false;
@@ -59,7 +61,9 @@ analyze::MapQuestion question_of(const MapCommand& command) {
   question.question.set = chosen_set(set, question.question.model);
   for (const std::string& text : command.over) question.over.push_back(parameter(text));
   for (const std::string& text : command.fixed) question.fixed.push_back(fixed(text));
-  return question;
+  if (command.orientation.empty()) return question;
+  return analyze::posture_map(question.question, std::move(question.over), question.fixed,
+                              analyze::parse_rotation(command.orientation), command.orientation_of);
 }
 
 report::ParameterPicture picture(const analyze::ParameterMap& map) {
@@ -88,7 +92,12 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
 }
 
 ExitStatus write_map(const CLI::App& sub, MapCommand command) {
-  if (command.count != "solutions") refuse_without_effect(sub, {"--no-boundary", "--require"}, "--count solutions");
+  if (!command.orientation.empty())
+    refuse_without_effect(sub, {"--set", "--kernel", "--corank", "--require"}, "no --orientation beside it");
+  if (command.orientation.empty() && !command.orientation_of.empty())
+    throw UsageError("--orientation-of: without effect; expected --orientation beside it");
+  if (command.count != "solutions")
+    refuse_without_effect(sub, {"--no-boundary", "--require", "--orientation"}, "--count solutions");
   command.json.give_back(command.question.file);
   command.json.check();
   const int n = command.options.resolution;
@@ -147,6 +156,12 @@ void add_map(CLI::App& program, Action& action) {
   sub->add_option("--fix", command->fixed, "A coordinate that keeps one value; may be repeated")
       ->type_name("NAME=EXPR")
       ->allow_extra_args(false);
+  sub->add_option("--orientation", command->orientation,
+                  "Count the postures of an arm of six revolute joints whose hand has this orientation, such as\n"
+                  "Rz(0.2)*Ry(10deg); two components of its position run, the third one is fixed")
+      ->type_name("R");
+  sub->add_option("--orientation-of", command->orientation_of, "The link that --orientation is for, if there are several")
+      ->type_name("NAME");
   sub->add_option("--count", command->count,
                   "What to count. solutions: those of --set (default: cspace), proven over whole cells; the others:\n"
                   "pieces among all configurations of one mechanism, proven only at the centres of cells")
@@ -173,7 +188,9 @@ void add_map(CLI::App& program, Action& action) {
       "  corank map models/dextar.cuik --over l2=1/2:3/2 --over l3=1/2:3/2\\\n"
       "      --fix theta2=pi/3 --fix theta5=2 -o lengths.svg\n"
       "  corank map models/dextar.cuik --over theta2=-pi:pi --over theta5=-pi:pi -o modes.h5\n"
-      "  corank verify modes.h5");
+      "  corank verify modes.h5\n\n"
+      "The postures of an arm of six joints over a plane of its hand's positions\n"
+      "  corank map arm.cuik --over tool_x=-1:1 --over tool_z=-1:1 --fix tool_y=0.2 --orientation \"Rz(0.3)\"");
   sub->callback([command, sub, &action] { action = [command, sub] { return write_map(*sub, *command); }; });
 }
 

@@ -1,7 +1,7 @@
 // Numbers over planes of two parameters: whole maps, and their tiles one by one, for the workers of a cluster.
 #include <stdexcept>
 
-#include "corank/analyze/maps/parameter_map.h"
+#include "corank/analyze/postures/posture_map.h"
 #include "corank/python/bindings.h"
 #include "corank/python/watched.h"
 
@@ -14,7 +14,7 @@ class ParameterMap {
  public:
   ParameterMap(const study::Question& question, const std::vector<std::tuple<std::string, Expression, Expression>>& over,
                const std::vector<std::pair<std::string, Expression>>& fixed, const std::string& count, int resolution,
-               bool boundary)
+               bool boundary, const std::optional<std::string>& orientation, const std::string& orientation_of)
       : options_{.resolution = resolution, .boundary = boundary, .threads = 1, .progress = {}} {
     const auto answer = analyze::map_answer_from_string(count);
     if (!answer)
@@ -23,6 +23,9 @@ class ParameterMap {
     question_.answer = *answer;
     for (const auto& [name, lower, upper] : over) question_.over.push_back({name, lower, upper});
     for (const auto& [name, value] : fixed) question_.fixed.push_back({name, value});
+    if (orientation)
+      question_ = analyze::posture_map(question, question_.over, question_.fixed, analyze::parse_rotation(*orientation),
+                                       orientation_of);
   }
 
   py::tuple run(int threads, bool certificate, double time_limit, const py::object& progress) const {
@@ -75,7 +78,8 @@ void bind_maps(py::module_& module) {
   bind_certificate<result::MapFile>(module, "MapFile", &result::write_map);
   py::class_<ParameterMap>(module, "ParameterMap")
       .def(py::init<const study::Question&, const std::vector<std::tuple<std::string, Expression, Expression>>&,
-                    const std::vector<std::pair<std::string, Expression>>&, const std::string&, int, bool>())
+                    const std::vector<std::pair<std::string, Expression>>&, const std::string&, int, bool,
+                    const std::optional<std::string>&, const std::string&>())
       .def_property_readonly_static("tiles", [](const py::object&) { return analyze::ParameterMapper::tiles(); })
       .def("run", &ParameterMap::run)
       .def("tile", &ParameterMap::tile)

@@ -42,7 +42,7 @@ Json error_event(const symbolic::ModelError& error) {
   std::string text = error.what();
   const std::string place = error.where().text() + ": ";
   if (text.starts_with(place)) text.erase(0, place.size());
-  const bool of_text = !error.where().file.starts_with("-D ");
+  const bool of_text = !error.where().file.starts_with("-D ") && error.where().file != "requirement";
   return {{"event", "error"},
           {"message", of_text ? text : error.where().file + ": " + text},
           {"line", of_text ? error.where().line : 0},

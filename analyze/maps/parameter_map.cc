@@ -31,7 +31,7 @@ using symbolic::ModelError;
 // most, for the narrowest cells; and where that does not do, at last. Measured, see bench/HISTORY.md.
 constexpr double kOpenShare = 4, kLastOpenShare = 0.1, kFinestOpenShare = 0.02;
 constexpr double kCentreShare = 1e-6;  // the same of a centre
-constexpr std::uint64_t kMostOfCell = 200'000, kMostOfLast = 50'000, kMostOfCentre = 4'000, kMostOfFolds = 200'000;
+constexpr std::uint64_t kMostOfCell = 1'000, kMostOfLast = 50'000, kMostOfCentre = 4'000, kMostOfFolds = 200'000;
 constexpr std::size_t kMostRoots = 4;  // of a cell's boxes that are searched for folds each; more are one
 constexpr double kFoldWidth = 1;       // of a box of the curve, in edges of the narrowest cells
 
@@ -336,7 +336,7 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
   const Parts& p = *parts_;
   ParameterMap map;
   map.model = p.question.question.model.name();
-  map.set = p.question.question.set ? symbolic::to_string(*p.question.question.set) : "system";
+  map.set = p.question.question.set ? symbolic::to_string(*p.question.question.set) : p.question.solutions;
   map.answer = p.question.answer;
   for (const symbolic::Parameter& over : p.question.over) map.names.push_back(over.name);
   map.region = p.region;

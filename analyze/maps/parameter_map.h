@@ -29,6 +29,7 @@ struct MapQuestion {
   std::vector<symbolic::Parameter> over;           ///< two
   std::vector<symbolic::FixedCoordinate> fixed{};  ///< of MapAnswer::solutions
   MapAnswer answer = MapAnswer::solutions;
+  std::string solutions = "system";  ///< how those of a plain system are called
 };
 
 struct ParameterMapOptions {
@@ -74,7 +75,7 @@ struct MapTile {
 };
 
 struct ParameterMap {
-  std::string model, set;  ///< "cspace", "forward-cusps" …; "system"
+  std::string model, set;  ///< "cspace", "forward-cusps" …; MapQuestion::solutions
   MapAnswer answer = MapAnswer::solutions;
   std::vector<std::string> names;  ///< of the parameters
   Box region;

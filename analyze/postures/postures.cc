@@ -108,6 +108,7 @@ struct PostureFinder::Parts {
 
   using Values = std::vector<Expression>;
   std::array<Expression, 3> origin_at(const Values& values, const Rotation& orientation) const;
+  symbolic::Mechanism six_held(const Values& values, const Rotation& orientation) const;
   symbolic::Mechanism hand_held(const Values& values, const Rotation& orientation) const;
   /// Nothing where a value is outside its range.
   std::optional<symbolic::Mechanism> coordinates_held(const Values& values,
@@ -231,6 +232,14 @@ std::array<Expression, 3> PostureFinder::Parts::origin_at(const Values& values, 
   return origin;
 }
 
+symbolic::Mechanism PostureFinder::Parts::six_held(const Values& values, const Rotation& orientation) const {
+  symbolic::Mechanism model = six->mechanism;
+  const std::array<Expression, 3> origin = origin_at(values, orientation);
+  for (std::size_t k = 0; k < 9; ++k) model.set_constant(kinematics::kHandPose[k], orientation[k / 3][k % 3]);
+  for (std::size_t i = 0; i < 3; ++i) model.set_constant(kinematics::kHandPose[9 + i], origin[i]);
+  return model;
+}
+
 symbolic::Mechanism PostureFinder::Parts::hand_held(const Values& values, const Rotation& orientation) const {
   kinematics::Robot held = *robot();
   std::erase_if(held.outputs, [&](const kinematics::Output& o) { return o.link == *hand; });
@@ -310,12 +319,15 @@ std::optional<symbolic::Mechanism> PostureFinder::Parts::model_at(const Values& 
     for (auto& row : *orientation)
       for (Expression& e : row) e = exact(e, "the orientation");
   if (!is_whole_pose()) return coordinates_held(values, orientation);
-  if (!six) return hand_held(values, *orientation);
-  symbolic::Mechanism model = six->mechanism;
-  const std::array<Expression, 3> origin = origin_at(values, *orientation);
-  for (std::size_t k = 0; k < 9; ++k) model.set_constant(kinematics::kHandPose[k], (*orientation)[k / 3][k % 3]);
-  for (std::size_t i = 0; i < 3; ++i) model.set_constant(kinematics::kHandPose[9 + i], origin[i]);
-  return model;
+  return six ? six_held(values, *orientation) : hand_held(values, *orientation);
+}
+
+symbolic::Mechanism PostureFinder::equations(const std::vector<Expression>& values, const Rotation& orientation) const {
+  const Parts& p = *parts_;
+  if (!p.six)
+    throw p.error("its postures have no equations in six angles",
+                  "an arm of six revolute joints, with the position and the orientation of its hand");
+  return p.six_held(values, orientation);
 }
 
 void PostureFinder::Parts::include(const System& system, const Box& box, PostureFamily& family) const {

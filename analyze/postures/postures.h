@@ -74,6 +74,10 @@ class PostureFinder {
   Postures find(const std::vector<symbolic::Expression>& values, const std::optional<Rotation>& orientation,
                 solve::Control& control, int threads = 1) const;
 
+  /// Of an arm of six joints at a whole pose, else a ModelError: the plain system whose solutions are its postures.
+  /// `values` may name the robot's constants.
+  symbolic::Mechanism equations(const std::vector<symbolic::Expression>& values, const Rotation& orientation) const;
+
   const PostureQuestion& question() const;
   /// How the equations are written: "six joints", "hand held" or "coordinates held".
   std::string way() const;

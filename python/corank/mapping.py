@@ -164,6 +164,8 @@ def map(
     set: Optional[str] = None,
     fixed: Optional[Mapping[str, ExpressionLike]] = None,
     require: Union[str, Sequence[str], None] = None,
+    orientation: Optional[str] = None,
+    orientation_of: str = "",
     count: str = "solutions",
     resolution: int = 64,
     boundary: bool = True,
@@ -182,6 +184,9 @@ def map(
         fixed: coordinates that keep one value.
         require: what every solution is to meet, beside the mechanism's own requirements, as text or texts:
             "amplification(outputs) <= 2" (doc/as_built.md). at() then tells whether it does.
+        orientation: of the hand of an arm of six revolute joints, such as "Rz(0.2)*Ry(pi/18)", whose postures are counted:
+            two components of its position run, `fixed` says where the third one is.
+        orientation_of: the link that `orientation` is for, if there are several.
         count: "solutions"; or "components", "aspects", "assembly-modes" or "working-modes" of all configurations, which are
             proven only at the centres of cells.
         resolution: the number of the narrowest cells along each side: a power of two from 8 to 1024.
@@ -197,18 +202,15 @@ def map(
     """
     if certificate and (count != "solutions" or client is not None):
         raise ValueError('certificate: expected count="solutions" and no client')
+    if orientation is not None and (count != "solutions" or set is not None or require is not None):
+        raise ValueError('orientation: expected count="solutions", no set and nothing required')
     if require is not None:
         if count != "solutions":
             raise ValueError('require: expected count="solutions"')
         self = self.with_requirements(*([require] if isinstance(require, str) else require))
-    core = _corank.ParameterMap(
-        ask(self._core, set),
-        _ranges(over),
-        [(name, as_expression(value)) for name, value in (fixed or {}).items()],
-        count,
-        resolution,
-        boundary,
-    )
+    options = (count, resolution, boundary, orientation, orientation_of)
+    values = [(name, as_expression(value)) for name, value in (fixed or {}).items()]
+    core = _corank.ParameterMap(ask(self._core, set), _ranges(over), values, *options)
     if client is None:
         with Shown(progress) as show:
             data, text, file, raised = core.run(threads, certificate, time_limit, show)
@@ -216,7 +218,7 @@ def map(
 
     from . import cluster  # needs a package that is not always there
 
-    question = (self, set, dict(over), dict(fixed or {}), count, resolution, boundary)
+    question = (self, set, dict(over), dict(fixed or {}), *options)
     tiles, whole = cluster.map_tiles(question, core.tiles, client, progress=progress)
     result = ParameterMap(*core.assemble(tiles))
     if not whole:

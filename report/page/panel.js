@@ -24,15 +24,16 @@ export class Panel {
     root.querySelector(".unpin").addEventListener("click", () => this.unpin());
   }
 
-  // Another model; what was shown is let go.
-  setModel(model, configurations) {
+  // Another model; what was shown is let go. `anew`: also the view in space.
+  setModel(model, configurations, anew = false) {
     this.player.stop();
     const sameKind = this.model.drawing.dimension === model.drawing.dimension;
     this.model = model;
     this.current = null;
+    this.player.offer(null);
     this.list([]);
     if (sameKind) {
-      this.picture.setModel(model, configurations);
+      this.picture.setModel(model, configurations, anew);
     } else {
       const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
       svg.setAttribute("role", "img");
@@ -78,7 +79,7 @@ export class Panel {
     else this.showNothing(place, portrait);
   }
 
-  // A button for each candidate; none is chosen.
+  // A button for each candidate, which may say at which `point` it is: {x, box, residual, moved}; none is chosen.
   list(candidates) {
     this.candidates = candidates;
     this.chosen = 0;
@@ -106,9 +107,9 @@ export class Panel {
   choose(k) {
     this.mark(k);
     const candidate = this.candidates[k],
-      {set, box, boxes = [box]} = candidate;
+      {set, box, boxes = [box], point} = candidate;
     this.player.stop();
-    this.show({set, ...pointOfBoxes(set, boxes, this.conditions(candidate))});
+    this.show({set, ...(point ?? pointOfBoxes(set, boxes, this.conditions(candidate)))});
     this.player.offer(this.current);
   }
 

@@ -35,15 +35,16 @@ export class Portrait {
 
   // Another model, over coordinates of the same names where it has them; `axes`: else. The limits stay while they fit: what moves is then
   // the picture, not its frame.
-  setModel(model, axes) {
+  // Over the axes that it has, where the model has them, too; `anew`: over those that are given.
+  setModel(model, axes, anew = false) {
     const {limits} = this.picture;
     const names = this.picture.axes.map(({name}) => name);
     const places = names.map((name) => model.coordinates.findIndex((coordinate) => coordinate.name === name));
     const same = model.coordinates.map(({name}) => name).join() === this.model.coordinates.map(({name}) => name).join();
     this.model = model;
     this.shown = null;
-    const kept = places.every((place) => place >= 0) ? places : axes;
-    if (!same) this.fillSelects(kept);
+    const kept = !anew && places.every((place) => place >= 0) ? places : axes;
+    if (!same || anew) this.fillSelects(kept);
     this.setAxes(kept, kept === places ? limits : null);
   }
 

@@ -106,9 +106,14 @@ export class SpatialMechanism {
     this.floor = (floor - this.middle.z) * this.scale;
   }
 
-  setModel(model, configurations) {
+  setModel(model, configurations, anew = false) {
     this.model = model;
     this.measure(configurations);
+    if (anew) {
+      this.orbit.fitted = false;
+      this.orbit.resize(true);
+      this.standBack();
+    }
     this.shown = null;
     this.redraw();
   }

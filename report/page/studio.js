@@ -119,8 +119,9 @@ class Studio {
     const bar = element("share-done");
     bar.hidden = false;
     bar.value = share;
+    const making = this.asked.request.want === "report" ? "making the report: " : "";
     element("status").textContent =
-      `${pass === 0 ? "looking at" : "refining"} ${this.titleOf(set)}: ${groupedText(boxes)} boxes`;
+      `${making}${pass === 0 ? "looking at" : "refining"} ${this.titleOf(set)}: ${groupedText(boxes)} boxes`;
   }
 
   on_picture(event) {

@@ -6,6 +6,8 @@ import {coordinateTable, coordinateValue, coordinateValues, htmlLabel, numberTex
 
 const hold = 16, // how near to the mark in a portrait a pointer has to be, in pixels
   nudge = 6; // pixels of a portrait that a key moves the mechanism
+const same = 1e-4; // of the variables of two modes, as far apart as that at most
+const gap = (a, b) => a.reduce((most, value, j) => Math.max(most, Math.abs(value - b[j])), 0);
 const names = {forward: "a forward singularity", inverse: "an inverse singularity"};
 
 export class Bench {
@@ -16,6 +18,7 @@ export class Bench {
     this.clearance = root.querySelector("#clearance");
     this.residual = root.querySelector("#residual");
     this.x = null; // the variables of C-space
+    this.met = new Set(); // kinds of singularities since somebody chose the configuration
     this.dragging = null;
     this.listenToPicture(root.querySelector(".picture"));
     portraits.forEach((portrait) => this.listenToPortrait(portrait));
@@ -53,9 +56,15 @@ export class Bench {
     if (found) this.show(found);
   }
 
-  // Draws the mechanism at a point of C-space: {x, residual}.
+  // Another robot comes.
+  forget() {
+    this.x = null;
+    this.say([]);
+  }
+
+  // Draws the mechanism at a point of C-space that it has moved to: {x, residual}.
   show({x, residual}) {
-    const {panel, cspace} = this;
+    const {panel, cspace, met} = this;
     if (cspace && cspace.count > 0) {
       panel.show({set: cspace, box: boxAt(cspace, x).box, x, residual, moved: true});
     } else {
@@ -64,10 +73,12 @@ export class Bench {
       panel.text.innerHTML = coordinateTable(this.model, values);
       panel.onShow({set: this.model.sets[0], box: -1, x, residual});
     }
+    this.say(met);
   }
 
   // The panel shows a configuration, whoever chose it.
   take({set, x, residual}) {
+    this.say([]);
     this.x = Float64Array.from(x.slice(0, set.configuration));
     this.residual.textContent = Number.isFinite(residual) ? residual.toExponential(0).replace("-", "−") : "–";
     this.residualNow = residual;
@@ -113,20 +124,25 @@ export class Bench {
   moveNow(target) {
     const result = this.motion.move(this.x, target, this.panel.picture.typicalLength);
     this.show(result);
-    if (result.crossed.length > 0) this.warn(result.crossed);
+    this.say([...this.met, ...result.crossed], result.end);
     return result;
   }
 
-  warn(kinds) {
-    this.warning.textContent = `On its way the mechanism met ${kinds.map((kind) => names[kind]).join(" and ")}.`;
-    this.warning.dataset.kind = kinds[0];
+  // Which singularities were met, and which coordinate is at an end of its range.
+  say(kinds, end = null) {
+    this.met = new Set(kinds);
+    const [first] = this.met;
+    const met = first ? `On its way the mechanism met ${[...this.met].map((kind) => names[kind]).join(" and ")}.` : "";
+    const stopped = end ? `It stops where ${htmlLabel(end)} is at an end of its range.` : "";
+    this.warning.innerHTML = [met, stopped].filter(Boolean).join(" ");
+    if (first) this.warning.dataset.kind = first;
+    else delete this.warning.dataset.kind;
   }
 
   begin() {
     this.panel.player.stop();
+    this.panel.player.offer(null);
     this.panel.pinned = true;
-    this.warning.textContent = "";
-    delete this.warning.dataset.kind;
   }
 
   // The modes over the place where the mechanism is now, among which its own is marked.
@@ -136,12 +152,31 @@ export class Bench {
     const portrait = this.portraits[0],
       {cspace} = this;
     if (!portrait?.picture.plane || !cspace) return;
-    const candidates = portrait.picture.candidates(portrait.picture.axes.map((axis) => coordinateValue(this.x, axis)));
-    const {box} = boxAt(cspace, this.x);
-    const own = candidates.findIndex(({set, boxes}) => set === cspace && boxes.includes(box));
-    this.panel.list(candidates);
+    const modes = this.modesAt(portrait.picture);
+    const own = modes.findIndex(({point}) => gap(point.x, this.x) < same);
+    this.panel.list(modes);
     if (own >= 0) this.panel.mark(own);
     this.panel.showState();
+  }
+
+  // The configurations of C-space in which the outputs (or the picture's coordinates, where there are none) are as they are now: one
+  // for each that Newton's method finds from a group of boxes over this place of the picture.
+  modesAt(picture) {
+    const {cspace, model, x} = this;
+    const outputs = model.coordinates.filter(({role}) => role === "output"),
+      kept = outputs.length > 0 ? outputs : picture.axes;
+    const target = this.motion.ofValues(Object.fromEntries(kept.map((c) => [c.name, coordinateValue(x, c)])));
+    const modes = [];
+    for (const {set, boxes} of picture.candidates(picture.axes.map((axis) => coordinateValue(x, axis)))) {
+      if (set !== cspace) continue;
+      for (const box of boxes.slice(0, 40)) {
+        const from = Float64Array.from({length: set.configuration}, (_, j) => set.middle(box, j));
+        const point = this.motion.move(from, target, this.panel.picture.typicalLength);
+        if (point.residual > 1e-9 || !(point.distance < 1e-9) || modes.some((mode) => gap(mode.point.x, point.x) < same)) continue;
+        modes.push({set, box: boxAt(set, point.x).box, point: {...point, box: boxAt(set, point.x).box, moved: true}});
+      }
+    }
+    return modes;
   }
 
   // The point that a pointer can take hold of: {point, off}, or null. `off`: in pixels from the pointer to it.
@@ -170,6 +205,7 @@ export class Bench {
         event.stopPropagation();
         root.setPointerCapture(event.pointerId);
         this.begin();
+        this.say([]);
         this.dragging = found;
       },
       true,
@@ -201,6 +237,7 @@ export class Bench {
       if (Math.hypot((x - u) * plane.sx, (y - v) * plane.sy) > hold) return;
       frame.setPointerCapture(event.pointerId);
       this.begin();
+      this.say([]);
       this.dragging = {portrait};
     });
     frame.addEventListener("pointermove", (event) => {

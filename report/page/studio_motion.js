@@ -139,17 +139,19 @@ export class Motion {
     };
   }
 
-  // From x towards the target, as near as C-space lets it: {x, residual, distance, crossed}. `crossed`: kinds of singularities that the
-  // way met, "forward" or "inverse".
+  // From x towards the target, as near as C-space lets it: {x, residual, distance, crossed, end}. `crossed`: kinds of singularities that
+  // the way met, "forward" or "inverse". `end`: the coordinate whose range ends the way, or null.
   move(start, target, scale = 1) {
     let now = this.onto(start);
     const crossed = new Set();
+    let end = null;
     let tangents = this.tangents(now.x),
       signs = this.signs(now.x, tangents),
       distance = Infinity;
     for (let round = 0; round < rounds; ++round) {
       const rows = target(now.x);
       const before = Math.hypot(...rows.map(({off}) => off));
+      distance = before;
       if (before < 1e-12 * scale) break;
       const along = rows.map(({row}) => {
         const v = new Float64Array(row.length);
@@ -170,15 +172,18 @@ export class Motion {
       if (!(length > 1e-13)) break;
       let part = Math.min(1, (largest * Math.max(1, scale)) / length),
         next = null;
+      end = null;
       for (let half = 0; half < 12; ++half, part /= 2) {
         const tried = this.onto(now.x.map((value, k) => value + part * step[k]));
         const after = Math.hypot(...target(tried.x).map(({off}) => off));
         const jumped = Math.hypot(...tried.x.map((value, k) => value - now.x[k])) > 3 * part * length + 1e-9;
-        if (tried.residual < 1e-9 && !jumped && after < before - 1e-15 && this.isWithin(tried.x)) {
+        const beyond = this.beyond(tried.x);
+        if (tried.residual < 1e-9 && !jumped && after < before - 1e-15 && !beyond) {
           next = tried;
           distance = after;
           break;
         }
+        end ??= beyond;
       }
       if (!next) break;
       now = next;
@@ -190,12 +195,17 @@ export class Motion {
       }
       signs = then;
     }
-    return {...now, distance, crossed: [...crossed]};
+    return {...now, distance, crossed: [...crossed], end: distance > 1e-9 ? end : null};
   }
 
   isWithin(x) {
+    return !this.beyond(x);
+  }
+
+  // A coordinate that is out of its range, or null.
+  beyond(x) {
     const values = coordinateValues(this.model, x);
-    return this.model.coordinates.every((c) => {
+    const within = (c) => {
       const value = values[c.name],
         [low, high] = c.range,
         room = 1e-9 * (1 + Math.abs(high - low));
@@ -203,7 +213,8 @@ export class Motion {
       if (high - low >= 2 * Math.PI - 1e-9) return true;
       const turned = value + 2 * Math.PI * Math.ceil((low - room - value) / (2 * Math.PI));
       return turned <= high + room;
-    });
+    };
+    return this.model.coordinates.find((c) => !within(c)) ?? null;
   }
 
   // An orthonormal basis of the velocities at x. One that begins with a former one keeps its orientation along a way.

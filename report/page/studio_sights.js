@@ -11,7 +11,7 @@ import {htmlText, isAngle} from "./values.js";
 
 export const element = (id) => document.getElementById(id);
 
-const rest = 250; // ms without a change, until the view in space is drawn
+const rest = 250; // ms without a change, until the modes are looked for and the view in space is drawn
 const samplesOfSet = 80;
 
 // Of one role lengths come before angles: a place in the plane is what one looks for first.
@@ -28,7 +28,8 @@ export class Sights {
   // Another robot comes: nothing is kept of where the mechanism is.
   forget() {
     this.samples = null;
-    if (this.bench) this.bench.x = null;
+    this.anew = true;
+    this.bench?.forget();
   }
 
   draw(model) {
@@ -42,12 +43,14 @@ export class Sights {
     const everywhere = [...this.samples.map(({values}) => values), ...(this.bench?.values ?? [])];
     if (!this.panel) this.build(model, order, everywhere);
     else {
-      for (const [role, portrait] of this.views) portrait.setModel(model, firstOf(order, model, role));
-      this.panel.setModel(model, everywhere);
+      for (const [role, portrait] of this.views) portrait.setModel(model, firstOf(order, model, role), this.anew);
+      this.panel.setModel(model, everywhere, this.anew);
     }
+    this.anew = false;
     this.showSpaceLater(model, [...new Set([...order, 0, 1, 2])].slice(0, 3));
     this.bench.setModel(model, () => (model.partial ? null : this.typical()));
-    if (!this.bench.dragging && this.bench.x) this.bench.end();
+    clearTimeout(this.settling);
+    this.settling = setTimeout(() => !this.bench.dragging && this.bench.x && this.bench.end(), rest);
   }
 
   build(model, order, everywhere) {

@@ -227,6 +227,12 @@ class Design(StudioCase):
         }})()"""
         )
 
+    def test_an_error_of_a_requirement_is_told(self):
+        self.js("corank.studio.design.change('require', {require: ['amplification(speed) <= 2']})")
+        self.until("s.editor.error")
+        self.assertEqual(self.js("corank.studio.editor.error.line"), 0)
+        self.assertIn("requirement: found 'speed'", self.js("document.getElementById('problem').textContent"))
+
     def test_requirements_are_shaded(self):
         self.js(
             """(() => {
@@ -379,9 +385,28 @@ class Motion(StudioCase):
             self.assertLess(at["residual"], 1e-9)
             self.assertLess(at["distance"], 1e-9)
             self.assertEqual(at["crossed"], [])
-        self.js("corank.studio.sights.bench.moveNow(corank.studio.sights.bench.motion.ofValues({J3x: 0.59, J3y: 0.3}))")
-        self.assertIn("forward singularity", self.js("document.getElementById('warning').textContent"))
+        for y in (0.3, 0.25):
+            self.js(
+                f"corank.studio.sights.bench.moveNow(corank.studio.sights.bench.motion.ofValues({{J3x: 0.59, J3y: {y}}}))"
+            )
+            self.assertIn("forward singularity", self.js("document.getElementById('warning').textContent"))
         self.assertNotEqual(self.signs(), signs)
+        # Another robot has met none, and is seen over axes of its own.
+        text = (MODELS / "three_slider.cuik").read_text(encoding="utf-8")
+        self.js(f"corank.studio.begin({{file: 'three_slider.cuik', text: {json.dumps(text)}, fine: false}})")
+        self.settle()
+        self.assertEqual(self.js("document.getElementById('warning').textContent"), "")
+        self.assertTrue(self.js("document.querySelector('#panel .player').hidden"))
+        for role, k in (("output", 0), ("input", 1)):
+            axes = self.js(f"corank.studio.sights.views[{k}][1].picture.axes.map((axis) => axis.role)")
+            self.assertIn(role, axes)
+
+    def test_the_end_of_a_range_is_said(self):
+        text = self.js("corank.studio.editor.text").replace("J3y    : [-l4-l5, l4+l5]", "J3y    : [-l4-l5, 1.3]")
+        self.type(text)
+        self.settle()
+        self.js("corank.studio.sights.bench.moveNow(corank.studio.sights.bench.motion.ofValues({J3x: 0.59, J3y: 1.4}))")
+        self.assertIn("J3y is at an end of its range", self.js("document.getElementById('warning').textContent"))
 
     def test_the_end_of_the_workspace_stops_it(self):
         result = self.js(

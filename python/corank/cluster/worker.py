@@ -21,9 +21,9 @@ def run_unit(prepared: bytes, unit: bytes, seconds: float, threads: int) -> np.n
 
 @functools.lru_cache(maxsize=1)
 def _parameter_map(question: bytes) -> Any:
-    mechanism, set, over, fixed, count, resolution, boundary = pickle.loads(question)
+    mechanism, set, over, fixed, *options = pickle.loads(question)
     values = [(name, as_expression(value)) for name, value in fixed.items()]
-    return _corank.ParameterMap(ask(mechanism._core, set), _ranges(over), values, count, resolution, boundary)
+    return _corank.ParameterMap(ask(mechanism._core, set), _ranges(over), values, *options)
 
 
 def run_tile(question: bytes, unit: bytes, seconds: float, threads: int) -> np.ndarray:
