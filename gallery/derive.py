@@ -112,6 +112,19 @@ def arms():
     yield "orthogonal_3r: postures", len(roots(orthogonal, 3, 300))
 
 
+def cusps_of_3r(d3, d4, r2):
+    """Along the locus c2 = -s3/k, without the curve h = 0: where rho^2 + z^2 and z^2 turn back at once; theta2 of either sign."""
+    t = np.linspace(-PI, PI, 400001)
+    h, k = d3 + d4 * np.cos(t), d3 * np.sin(t) - r2 * np.cos(t)
+    c2 = -np.sin(t) / k
+    squares = np.array([1 + 2 * h * c2 + h**2 + (r2 + d4 * np.sin(t)) ** 2, h**2 * (1 - c2**2)])
+    steps = np.diff(squares)
+    turns = np.all(steps[:, 1:] * steps[:, :-1] < 0, axis=0)
+    inside = np.abs(c2) <= 1
+    smooth = np.abs(np.diff(c2)) < 0.5
+    return 2 * np.sum(turns & inside[2:] & inside[1:-1] & inside[:-2] & smooth[1:] & smooth[:-1])
+
+
 def corners(radius):
     return [radius * np.array([np.cos(2 * PI * k / 3), np.sin(2 * PI * k / 3), 0]) for k in range(3)]
 
@@ -218,6 +231,8 @@ def main():
         print(f"{name}: {number}")
     print(f"stewart_line: places on x = -0.7, y = 0.1: {stewart_line(-0.7, 0.1)}")
     print(f"stewart_line: places on x = 0.2, y = 0.3: {stewart_line(0.2, 0.3)}")
+    for d3, d4 in [(2, 0.19), (2, 0.21), (2, 2.08), (2, 2.1), (2, 2.12), (2, 2.82), (2, 2.84), (0.5, 1.11), (0.5, 1.13)]:
+        print(f"orthogonal_3r_map: cusps, d3 = {d3}, d4 = {d4}: {cusps_of_3r(d3, d4, 1)}")
     for factor in (0.99, 1, 1.01):
         low, high = orthoglide(factor)
         print(f"orthoglide: amplification on the cube times {factor}: {low:.4f} to {high:.4f}")
