@@ -166,20 +166,56 @@ def parallel_robots():
     yield "agile_eye: orientations", len(frames)
 
 
-def stewart_line(x, y):
-    """The real roots of the cubic in z by which the six legs' lines are dependent."""
+def hexapod(place):
+    """The determinant of the lines of the six legs of stewart_line and sphere_6ups."""
     base = [np.array([np.cos(k * PI / 12), np.sin(k * PI / 12), 0]) for k in (1, 7, 9, 15, 17, 23)]
     top = [0.6 * np.array([np.cos(k * PI / 12), np.sin(k * PI / 12), 0]) for k in (3, 5, 11, 13, 19, 21)]
     frame = turn(2, 0.2) @ turn(1, 0.1) @ turn(0, 0.3)
+    ends = [place + frame @ b for b in top]
+    return np.linalg.det([np.concatenate([b - a, np.cross(a, b)]) for a, b in zip(base, ends)])
 
-    def determinant(z):
-        ends = [np.array([x, y, z]) + frame @ b for b in top]
-        return np.linalg.det([np.concatenate([b - a, np.cross(a, b)]) for a, b in zip(base, ends)])
 
+def stewart_line(x, y):
+    """The real roots of the cubic in z by which the six legs' lines are dependent."""
     places = np.linspace(-3.5, 3.5, 9)
-    cubic = np.polyfit(places, [determinant(z) for z in places], 5)
+    cubic = np.polyfit(places, [hexapod(np.array([x, y, z])) for z in places], 5)
     assert np.abs(cubic[:2]).max() < 1e-9 * np.abs(cubic).max()  # of degree three
     return sum(abs(r.imag) < 1e-9 and abs(r) < 4 for r in np.roots(cubic[2:]))
+
+
+def three_rpr(place):
+    """The determinant of the lines of the three legs of circle_3rpr, whose platform is turned by a right angle."""
+    rows = []
+    for base, top in [((0, 0), (0, 0)), ((4, 0), (0, 1)), ((1, 3), (-1, 0.5))]:
+        x, y = place + np.array(top) - np.array(base)
+        rows.append([x, y, top[0] * y - top[1] * x])
+    return np.linalg.det(rows)
+
+
+def ellipse():
+    """Centre and half axes of the conic three_rpr = 0."""
+    places = RANDOM.uniform(-3, 3, (30, 2))
+    a, b, c, d, e, f = np.linalg.lstsq(
+        np.array([[x * x, x * y, y * y, x, y, 1] for x, y in places]), [three_rpr(p) for p in places], rcond=None
+    )[0]
+    form = np.array([[a, b / 2], [b / 2, c]])
+    centre = np.linalg.solve(2 * form, [-d, -e])
+    return centre, np.sqrt((centre @ form @ centre - f) / np.linalg.eigvalsh(form))
+
+
+def nearest(determinant, centre):
+    """The distance of a point from determinant = 0: the least root along rays, of directions that close in on the best one."""
+    centre = np.array(centre, float)
+    marks = np.linspace(-2, 2, 4)  # the determinant is of degree three along a line
+    best, width, aim = np.inf, 10.0, np.zeros(len(centre))
+    for _ in range(40):
+        for ray in aim + width * RANDOM.normal(size=(30, len(centre))):
+            ray /= np.linalg.norm(ray)
+            for r in np.roots(np.polyfit(marks, [determinant(centre + m * ray) for m in marks], 3)):
+                if abs(r.imag) < 1e-9 and abs(r) < best:
+                    best, aim = abs(r), np.sign(r.real) * ray
+        width = min(1, width) * 0.6
+    return best
 
 
 def orthoglide(factor):
@@ -233,6 +269,12 @@ def main():
     print(f"stewart_line: places on x = 0.2, y = 0.3: {stewart_line(0.2, 0.3)}")
     for d3, d4 in [(2, 0.19), (2, 0.21), (2, 2.08), (2, 2.1), (2, 2.12), (2, 2.82), (2, 2.84), (0.5, 1.11), (0.5, 1.13)]:
         print(f"orthogonal_3r_map: cusps, d3 = {d3}, d4 = {d4}: {cusps_of_3r(d3, d4, 1)}")
+    print(f"circle_3rpr: centre and half axes of the ellipse: {ellipse()}")
+    print(f"circle_3rpr: radius about (5/2, 1/2): {nearest(three_rpr, (2.5, 0.5)):.6f}")
+    print(f"sphere_6ups: radius about (1/5, 3/10, 1): {nearest(hexapod, (0.2, 0.3, 1)):.6f}")
+    corner = (0.5, -0.5, 1.5)
+    others = [nearest(hexapod, p) for p in RANDOM.uniform((-0.5, -0.5, 0.5), (0.5, 0.5, 1.5), (8, 3))]
+    print(f"sphere_6ups: radius about {corner}: {nearest(hexapod, corner):.6f}, about others: {max(others):.6f} at most")
     for factor in (0.99, 1, 1.01):
         low, high = orthoglide(factor)
         print(f"orthoglide: amplification on the cube times {factor}: {low:.4f} to {high:.4f}")
