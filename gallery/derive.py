@@ -166,6 +166,26 @@ def parallel_robots():
     yield "agile_eye: orientations", len(frames)
 
 
+def upu(legs, starts):
+    """Tsai's 3-UPU: a leg is perpendicular to the middle axis that its axes at the base and at the platform have in common."""
+    outward = [np.array([np.cos(a), np.sin(a), 0]) for a in 2 * PI / 3 * np.arange(3)]
+
+    def gaps(x):
+        frame = turn(2, x[5]) @ turn(1, x[4]) @ turn(0, x[3])
+        f = []
+        for r, length in zip(outward, legs):
+            axis, leg = np.cross([0, 0, 1], r), x[:3] + 0.5 * frame @ r - r
+            f += [leg @ leg - length**2, np.cross(axis, frame @ axis) @ leg]
+        return np.array(f)
+
+    poses = []
+    for x in roots(gaps, 6, starts, angles=slice(3, 6)):
+        pose = np.append(x[:3], turn(2, x[5]) @ turn(1, x[4]) @ turn(0, x[3]))
+        if not any(np.abs(pose - p).max() < 1e-5 for p in poses):
+            poses.append(pose)
+    return len(poses)
+
+
 def hexapod(place):
     """The determinant of the lines of the six legs of stewart_line and sphere_6ups."""
     base = [np.array([np.cos(k * PI / 12), np.sin(k * PI / 12), 0]) for k in (1, 7, 9, 15, 17, 23)]
@@ -269,6 +289,8 @@ def main():
     print(f"stewart_line: places on x = 0.2, y = 0.3: {stewart_line(0.2, 0.3)}")
     for d3, d4 in [(2, 0.19), (2, 0.21), (2, 2.08), (2, 2.1), (2, 2.12), (2, 2.82), (2, 2.84), (0.5, 1.11), (0.5, 1.13)]:
         print(f"orthogonal_3r_map: cusps, d3 = {d3}, d4 = {d4}: {cusps_of_3r(d3, d4, 1)}")
+    for legs, starts in [((1, 1.1, 1.2), 500), ((1.3, 1.35, 1.4), 2000), ((1.52, 1.55, 1.58), 2000)]:
+        print(f"upu_modes: postures, legs {legs}: {upu(legs, starts)}")
     print(f"circle_3rpr: centre and half axes of the ellipse: {ellipse()}")
     print(f"circle_3rpr: radius about (5/2, 1/2): {nearest(three_rpr, (2.5, 0.5)):.6f}")
     print(f"sphere_6ups: radius about (1/5, 3/10, 1): {nearest(hexapod, (0.2, 0.3, 1)):.6f}")
