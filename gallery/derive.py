@@ -5,6 +5,8 @@
 What it prints is a lower bound of the number of solutions: those that it finds. Entries that rest on it say so in `derived`.
 """
 
+import itertools
+
 import numpy as np
 
 RANDOM = np.random.default_rng(7)
@@ -203,6 +205,43 @@ def stewart_line(x, y):
     return sum(abs(r.imag) < 1e-9 and abs(r) < 4 for r in np.roots(cubic[2:]))
 
 
+def three_rrr(x, y, modes):
+    """The determinant of the lines of the links at the platform of line_3rrr, with the legs' elbows on the sides that modes says."""
+    angle, rows = PI / 10, []
+    for foot, along, side in zip([(0, 0), (2, 0), (1, np.sqrt(3))], [None, angle, angle + PI / 3], modes):
+        ex, ey = (0, 0) if along is None else (0.5 * np.cos(along), 0.5 * np.sin(along))
+        dx, dy = x + ex - foot[0], y + ey - foot[1]
+        bend = side * np.sqrt(1 / (dx**2 + dy**2) - 0.25)
+        ux, uy = dx / 2 + bend * dy, dy / 2 - bend * dx
+        rows.append([ux, uy, ex * uy - ey * ux])
+    return np.linalg.det(np.moveaxis(np.array(rows), -1, 0))
+
+
+def line_3rrr(y):
+    """Places with the given y at which the determinant changes its sign, in all eight working modes together."""
+    x, count = np.linspace(-2, 2, 400001), 0
+    with np.errstate(invalid="ignore"):
+        for modes in itertools.product([1, -1], repeat=3):
+            values = three_rrr(x, y, modes)
+            count += np.sum(values[1:] * values[:-1] < 0)
+    return count
+
+
+def degree_3rrr():
+    """Of the product over all modes, times the denominators: how it grows along a complex line."""
+
+    def product(t):
+        x, y = np.array([0.31 + 0.83 * t]), np.array([-0.27 + 0.61 * t])
+        value = np.prod([three_rrr(x, y, modes) for modes in itertools.product([1, -1], repeat=3)])
+        for fx, fy in [(0, 0), (2 - 0.5 * np.cos(PI / 10), -0.5 * np.sin(PI / 10))]:
+            value *= ((x[0] - fx) ** 2 + (y[0] - fy) ** 2) ** 4
+        fx, fy = 1 - 0.5 * np.cos(PI / 10 + PI / 3), np.sqrt(3) - 0.5 * np.sin(PI / 10 + PI / 3)
+        return value * ((x[0] - fx) ** 2 + (y[0] - fy) ** 2) ** 4
+
+    t = 400 * np.exp(1j)
+    return np.log2(abs(product(2 * t) / product(t)))
+
+
 def three_rpr(place):
     """The determinant of the lines of the three legs of circle_3rpr, whose platform is turned by a right angle."""
     rows = []
@@ -291,6 +330,7 @@ def main():
         print(f"orthogonal_3r_map: cusps, d3 = {d3}, d4 = {d4}: {cusps_of_3r(d3, d4, 1)}")
     for legs, starts in [((1, 1.1, 1.2), 500), ((1.3, 1.35, 1.4), 2000), ((1.52, 1.55, 1.58), 2000)]:
         print(f"upu_modes: postures, legs {legs}: {upu(legs, starts)}")
+    print(f"line_3rrr: singular places with y = -1/5, y = 3/10: {line_3rrr(-0.2)}, {line_3rrr(0.3)}; degree {degree_3rrr():.3f}")
     print(f"circle_3rpr: centre and half axes of the ellipse: {ellipse()}")
     print(f"circle_3rpr: radius about (5/2, 1/2): {nearest(three_rpr, (2.5, 0.5)):.6f}")
     print(f"sphere_6ups: radius about (1/5, 3/10, 1): {nearest(hexapod, (0.2, 0.3, 1)):.6f}")
