@@ -127,6 +127,15 @@ def cusps_of_3r(d3, d4, r2):
     return 2 * np.sum(turns & inside[2:] & inside[1:-1] & inside[:-2] & smooth[1:] & smooth[:-1])
 
 
+def degenerate_3rpr(cx, cy):
+    """The places |w| of the cusps of degenerate_3rpr: where the lengths of both other legs turn back along the singular curve."""
+    h = np.linspace(0, PI, 400001) + 1e-4
+    s, m = np.sin(h), cy * np.cos(h) - cx * np.sin(h)
+    w = 2 * s * m * (np.cos(h) - cy * np.sin(h) - cx * np.cos(h)) / cy
+    steps = np.diff(np.array([s * (s - w), m * (m + w)]))
+    return np.sort(np.abs(w[1:-1][np.all(steps[:, 1:] * steps[:, :-1] < 0, axis=0)]))
+
+
 def corners(radius):
     return [radius * np.array([np.cos(2 * PI * k / 3), np.sin(2 * PI * k / 3), 0]) for k in range(3)]
 
@@ -331,6 +340,8 @@ def main():
     for legs, starts in [((1, 1.1, 1.2), 500), ((1.3, 1.35, 1.4), 2000), ((1.52, 1.55, 1.58), 2000)]:
         print(f"upu_modes: postures, legs {legs}: {upu(legs, starts)}")
     print(f"line_3rrr: singular places with y = -1/5, y = 3/10: {line_3rrr(-0.2)}, {line_3rrr(0.3)}; degree {degree_3rrr():.3f}")
+    for cx in (0.2, 0.5, -0.5):
+        print(f"degenerate_3rpr: cx = {cx}: cusps for legs longer than {degenerate_3rpr(cx, 0.8)}")
     print(f"circle_3rpr: centre and half axes of the ellipse: {ellipse()}")
     print(f"circle_3rpr: radius about (5/2, 1/2): {nearest(three_rpr, (2.5, 0.5)):.6f}")
     print(f"sphere_6ups: radius about (1/5, 3/10, 1): {nearest(hexapod, (0.2, 0.3, 1)):.6f}")
