@@ -329,17 +329,154 @@ def baranov_truss():
     return len(roots(gaps, 5, 1500, angles=slice(3), spread=6))
 
 
+def screw(length, twist, angle):
+    """From a joint's frame to the next one's: a turn about z, then along x and about x."""
+    frame = np.eye(4)
+    frame[:3, :3] = turn(2, angle) @ turn(0, twist)
+    frame[:3, 3] = turn(2, angle) @ np.array([length, 0, 0])
+    return frame
+
+
+def ring_gap(links, angles):
+    """How a ring of links (length, twist) fails to close."""
+    frame = np.eye(4)
+    for (length, twist), angle in zip(links, angles):
+        frame = frame @ screw(length, twist, angle)
+    return (frame - np.eye(4))[:3].ravel()
+
+
+def closes_at_all_angles(links):
+    """Newton's method closes the ring for the first joint at each of some angles; the largest gap that is left."""
+    gaps = []
+    for first in np.linspace(0.4, 1.6, 13):
+        found = roots(lambda x: ring_gap(links, [first, *x]), len(links) - 1, 40)
+        gaps.append(min([np.linalg.norm(ring_gap(links, [first, *x])) for x in found], default=np.inf))
+    return max(gaps)
+
+
+def bennett():
+    a, b = (0.6, np.arcsin(0.6)), (0.8, np.arcsin(0.8))
+    return closes_at_all_angles([a, b, a, b])
+
+
+def bricard():
+    return closes_at_all_angles([(1, PI / 2 * (-1) ** k) for k in range(6)])
+
+
+def griffis_duffy():
+    """The legs' lines are dependent in every pose: the largest of their determinants at random poses, to that of one leg moved."""
+    corner = [np.array([np.cos(a), np.sin(a), 0]) * 2 / np.sqrt(3) for a in 2 * PI / 3 * np.arange(3)]
+    middle = [(corner[k] + corner[(k + 1) % 3]) / 2 for k in range(3)]
+    base = [corner[0], middle[0], corner[1], middle[1], corner[2], middle[2]]
+    top = [middle[0], corner[1], middle[1], corner[2], middle[2], corner[0]]
+    worst, usual = 0, np.inf
+    for _ in range(200):
+        angles, place = RANDOM.uniform(-1, 1, 3), RANDOM.uniform(-1, 1, 3) + np.array([0, 0, 1.5])
+        frame = turn(2, angles[0]) @ turn(1, angles[1]) @ turn(0, angles[2])
+        for moved in (False, True):
+            feet = [base[0] + np.array([0.3, 0.2, 0.1]) * moved, *base[1:]]
+            lines = [np.append(place + frame @ t - f, np.cross(f, place + frame @ t)) for f, t in zip(feet, top)]
+            value = abs(np.linalg.det(lines))
+            worst, usual = (worst, min(usual, value)) if moved else (max(worst, value), usual)
+    return worst, usual
+
+
+def cyclohexane():
+    """Six atoms with given distances to the next and to the next but one: shapes by the rank of these twelve equations."""
+    far = np.sqrt(8 / 3)  # of the next but one, for bonds of 1 and the tetrahedron's angle
+    pairs = [(k, (k + 1) % 6, 1) for k in range(6)] + [(k, (k + 2) % 6, far) for k in range(6)]
+    ranks = {"chair": set(), "boat": set()}
+    for _ in range(300):
+        x = RANDOM.normal(size=18)
+        for _ in range(200):
+            atoms = x.reshape(6, 3)
+            gaps = np.array([(atoms[i] - atoms[j]) @ (atoms[i] - atoms[j]) - d * d for i, j, d in pairs])
+            slopes = np.zeros((12, 6, 3))
+            for row, (i, j, _) in enumerate(pairs):
+                slopes[row, i], slopes[row, j] = 2 * (atoms[i] - atoms[j]), 2 * (atoms[j] - atoms[i])
+            slopes = slopes.reshape(12, 18)
+            if np.abs(gaps).max() < 1e-13:
+                break
+            x = x - np.linalg.lstsq(slopes, gaps, rcond=1e-9)[0]
+        if np.abs(gaps).max() < 1e-12:
+            across = [np.linalg.norm(atoms[k] - atoms[k + 3]) for k in range(3)]
+            rank = np.sum(np.linalg.svd(slopes, compute_uv=False) > 1e-5)
+            ranks["chair" if np.ptp(across) < 1e-6 else "boat"].add(int(rank))
+    return ranks
+
+
+def dietmaier():
+    base = np.array(
+        [
+            (0, 0, 0),
+            (1.107915, 0, 0),
+            (0.549094, 0.756063, 0),
+            (0.735077, -0.223935, 0.525991),
+            (0.514188, -0.526063, -0.368418),
+            (0.590473, 0.094733, -0.205018),
+        ]
+    )
+    top = np.array(
+        [
+            (0, 0, 0),
+            (0.542805, 0, 0),
+            (0.956919, -0.528915, 0),
+            (0.665885, -0.353482, 1.402538),
+            (0.478359, 1.158742, 0.107672),
+            (-0.137087, -0.235121, 0.353913),
+        ]
+    )
+    legs = np.array([1, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071])
+
+    def turned(x):  # by a quaternion, of each point
+        w, v = x[3], x[4:]
+        return top * (w * w - v @ v) + 2 * np.outer(top @ v, v) + 2 * w * np.cross(v, top)
+
+    found = []
+    for _ in range(6000):
+        x = np.append(RANDOM.uniform(-1, 1, 3), RANDOM.normal(size=4))
+        x[3:] /= np.linalg.norm(x[3:])
+        for _ in range(40):
+            rods = x[:3] + turned(x) - base
+            gaps = np.append(np.sum(rods**2, axis=1) - legs**2, x[3:] @ x[3:] - 1)
+            if np.abs(gaps).max() < 1e-13:
+                break
+            w, v = x[3], x[4:]
+            slopes = np.zeros((7, 7))
+            slopes[:6, :3] = 2 * rods
+            slopes[:6, 3] = 2 * np.sum(rods * (2 * w * top + 2 * np.cross(v, top)), axis=1)
+            for k in range(3):
+                e = np.eye(3)[k]
+                moved = -2 * v[k] * top + 2 * np.outer(top[:, k], v) + 2 * np.outer(top @ v, e) + 2 * w * np.cross(e, top)
+                slopes[:6, 4 + k] = 2 * np.sum(rods * moved, axis=1)
+            slopes[6, 3:] = 2 * x[3:]
+            step = np.linalg.lstsq(slopes, gaps, rcond=None)[0]
+            x = x - step * min(1, 1 / max(np.linalg.norm(step), 1e-12))
+        if np.abs(gaps).max() < 1e-11:
+            x[3:] *= np.sign(x[3]) or 1
+            if not any(np.abs(x - y).max() < 1e-6 for y in found):
+                found.append(x)
+    return len(found)
+
+
 def main():
     others = [("rssr: forward singularities", rssr()), ("baranov_truss: assemblies", baranov_truss())]
     for name, number in [*arms(), *parallel_robots(), *others]:
         print(f"{name}: {number}")
+    print(f"bennett: gap that is left at angles of the first joint: {bennett():.1e}")
+    print(f"bricard: gap that is left at angles of the first joint: {bricard():.1e}")
+    print(f"griffis_duffy: largest determinant at random poses, least with one leg moved: {griffis_duffy()}")
+    print(f"cyclohexane: ranks of twelve equations: {cyclohexane()}")
+    print(f"dietmaier: postures: {dietmaier()}")
     print(f"stewart_line: places on x = -0.7, y = 0.1: {stewart_line(-0.7, 0.1)}")
     print(f"stewart_line: places on x = 0.2, y = 0.3: {stewart_line(0.2, 0.3)}")
     for d3, d4 in [(2, 0.19), (2, 0.21), (2, 2.08), (2, 2.1), (2, 2.12), (2, 2.82), (2, 2.84), (0.5, 1.11), (0.5, 1.13)]:
         print(f"orthogonal_3r_map: cusps, d3 = {d3}, d4 = {d4}: {cusps_of_3r(d3, d4, 1)}")
     for legs, starts in [((1, 1.1, 1.2), 500), ((1.3, 1.35, 1.4), 2000), ((1.52, 1.55, 1.58), 2000)]:
         print(f"upu_modes: postures, legs {legs}: {upu(legs, starts)}")
-    print(f"line_3rrr: singular places with y = -1/5, y = 3/10: {line_3rrr(-0.2)}, {line_3rrr(0.3)}; degree {degree_3rrr():.3f}")
+    print(
+        f"line_3rrr: singular places with y = -1/5, y = 3/10: {line_3rrr(-0.2)}, {line_3rrr(0.3)}; degree {degree_3rrr():.3f}"
+    )
     for cx in (0.2, 0.5, -0.5):
         print(f"degenerate_3rpr: cx = {cx}: cusps for legs longer than {degenerate_3rpr(cx, 0.8)}")
     print(f"circle_3rpr: centre and half axes of the ellipse: {ellipse()}")
