@@ -136,6 +136,50 @@ def degenerate_3rpr(cx, cy):
     return np.sort(np.abs(w[1:-1][np.all(steps[:, 1:] * steps[:, :-1] < 0, axis=0)]))
 
 
+def rpr_2prr(leg):
+    """Cusps by Newton's method in the angles of the leg and of the platform: the slides' gradients and the curve's are dependent."""
+
+    def gradients(q, sides):  # of the slides, times the rods' extents along them
+        rows = []
+        for (bx, by), line, side in zip([(1, 0), (0.5, 0.6)], [0, 1.5], sides):
+            rx, ry = np.cos(q[1]) * bx - np.sin(q[1]) * by, np.sin(q[1]) * bx + np.cos(q[1]) * by
+            rise = leg * np.sin(q[0]) + ry - line
+            run = side * np.sqrt(4 - rise**2)
+            rows.append([-leg * np.sin(q[0]) * run + rise * leg * np.cos(q[0]), -ry * run + rise * rx])
+        return rows
+
+    def slopes(f, q, h):
+        return [(f(q + h * e) - f(q - h * e)) / (2 * h) for e in np.eye(2)[:, :, None]]
+
+    total = 0
+    for sides in itertools.product([1, -1], repeat=2):
+
+        def singular(q):
+            (a, b), (c, d) = gradients(q, sides)
+            return a * d - b * c
+
+        def cusp(q):
+            (a, b), (c, d) = gradients(q, sides)
+            first = a * a + b * b >= c * c + d * d
+            by_leg, by_platform = slopes(singular, q, 1e-5)
+            return by_leg * np.where(first, b, d) - by_platform * np.where(first, a, c)
+
+        q = np.stack(np.meshgrid(*2 * [np.linspace(-PI, PI, 70)])).reshape(2, -1) + 0.01
+        with np.errstate(all="ignore"):
+            for _ in range(30):
+                f, g = singular(q), cusp(q)
+                (fa, fb), (ga, gb) = slopes(singular, q, 1e-4), slopes(cusp, q, 1e-4)
+                step = np.array([gb * f - fb * g, fa * g - ga * f]) / (fa * gb - fb * ga)
+                q = q - step / np.maximum(1, np.linalg.norm(step, axis=0) / 0.1)
+            good = q[:, (np.abs(singular(q)) < 1e-10) & (np.abs(cusp(q)) < 1e-7)]
+        found = []
+        for x in good.T:
+            if not any(np.abs(np.remainder(x - y + PI, 2 * PI) - PI).max() < 1e-4 for y in found):
+                found.append(x)
+        total += len(found)
+    return total
+
+
 def corners(radius):
     return [radius * np.array([np.cos(2 * PI * k / 3), np.sin(2 * PI * k / 3), 0]) for k in range(3)]
 
@@ -479,6 +523,7 @@ def main():
     )
     for cx in (0.2, 0.5, -0.5):
         print(f"degenerate_3rpr: cx = {cx}: cusps for legs longer than {degenerate_3rpr(cx, 0.8)}")
+    print(f"rpr_2prr: cusps, leg 1/2, leg 1/4: {rpr_2prr(0.5)}, {rpr_2prr(0.25)}")
     print(f"circle_3rpr: centre and half axes of the ellipse: {ellipse()}")
     print(f"circle_3rpr: radius about (5/2, 1/2): {nearest(three_rpr, (2.5, 0.5)):.6f}")
     print(f"sphere_6ups: radius about (1/5, 3/10, 1): {nearest(hexapod, (0.2, 0.3, 1)):.6f}")
