@@ -115,7 +115,7 @@ def arms():
 
 
 def cusps_of_3r(d3, d4, r2):
-    """Along the locus c2 = -s3/k, without the curve h = 0: where rho^2 + z^2 and z^2 turn back at once; theta2 of either sign."""
+    """Along the locus c2 = -s3/k, without the curve h = 0: where rho^2 + z^2 and z^2 turn back; theta2 of either sign."""
     t = np.linspace(-PI, PI, 400001)
     h, k = d3 + d4 * np.cos(t), d3 * np.sin(t) - r2 * np.cos(t)
     c2 = -np.sin(t) / k
@@ -128,7 +128,7 @@ def cusps_of_3r(d3, d4, r2):
 
 
 def degenerate_3rpr(cx, cy):
-    """The places |w| of the cusps of degenerate_3rpr: where the lengths of both other legs turn back along the singular curve."""
+    """The places |w| of the cusps of degenerate_3rpr: where both other legs turn back along the singular curve."""
     h = np.linspace(0, PI, 400001) + 1e-4
     s, m = np.sin(h), cy * np.cos(h) - cx * np.sin(h)
     w = 2 * s * m * (np.cos(h) - cy * np.sin(h) - cx * np.cos(h)) / cy
@@ -137,7 +137,7 @@ def degenerate_3rpr(cx, cy):
 
 
 def rpr_2prr(leg):
-    """Cusps by Newton's method in the angles of the leg and of the platform: the slides' gradients and the curve's are dependent."""
+    """Cusps by Newton's method in the angles of leg and platform: the slides' gradients and the curve's are dependent."""
 
     def gradients(q, sides):  # of the slides, times the rods' extents along them
         rows = []
@@ -222,7 +222,7 @@ def parallel_robots():
 
 
 def upu(legs, starts):
-    """Tsai's 3-UPU: a leg is perpendicular to the middle axis that its axes at the base and at the platform have in common."""
+    """Tsai's 3-UPU: a leg is perpendicular to the middle axis, which is perpendicular to both outer ones."""
     outward = [np.array([np.cos(a), np.sin(a), 0]) for a in 2 * PI / 3 * np.arange(3)]
 
     def gaps(x):
@@ -259,7 +259,7 @@ def stewart_line(x, y):
 
 
 def three_rrr(x, y, modes):
-    """The determinant of the lines of the links at the platform of line_3rrr, with the legs' elbows on the sides that modes says."""
+    """The determinant of the lines of the links at the platform of line_3rrr, with the elbows on the sides in `modes`."""
     angle, rows = PI / 10, []
     for foot, along, side in zip([(0, 0), (2, 0), (1, np.sqrt(3))], [None, angle, angle + PI / 3], modes):
         ex, ey = (0, 0) if along is None else (0.5 * np.cos(along), 0.5 * np.sin(along))
@@ -316,7 +316,7 @@ def ellipse():
 
 
 def nearest(determinant, centre):
-    """The distance of a point from determinant = 0: the least root along rays, of directions that close in on the best one."""
+    """The distance of a point from determinant = 0: the least root along rays, whose directions close in on the best."""
     centre = np.array(centre, float)
     marks = np.linspace(-2, 2, 4)  # the determinant is of degree three along a line
     best, width, aim = np.inf, 10.0, np.zeros(len(centre))
@@ -408,7 +408,7 @@ def bricard():
 
 
 def griffis_duffy():
-    """The legs' lines are dependent in every pose: the largest of their determinants at random poses, to that of one leg moved."""
+    """The legs' lines are dependent in every pose: the largest determinant at random poses, and the least with a leg moved."""
     corner = [np.array([np.cos(a), np.sin(a), 0]) * 2 / np.sqrt(3) for a in 2 * PI / 3 * np.arange(3)]
     middle = [(corner[k] + corner[(k + 1) % 3]) / 2 for k in range(3)]
     base = [corner[0], middle[0], corner[1], middle[1], corner[2], middle[2]]
@@ -518,9 +518,7 @@ def main():
         print(f"orthogonal_3r_map: cusps, d3 = {d3}, d4 = {d4}: {cusps_of_3r(d3, d4, 1)}")
     for legs, starts in [((1, 1.1, 1.2), 500), ((1.3, 1.35, 1.4), 2000), ((1.52, 1.55, 1.58), 2000)]:
         print(f"upu_modes: postures, legs {legs}: {upu(legs, starts)}")
-    print(
-        f"line_3rrr: singular places with y = -1/5, y = 3/10: {line_3rrr(-0.2)}, {line_3rrr(0.3)}; degree {degree_3rrr():.3f}"
-    )
+    print(f"line_3rrr: places with y = -1/5, y = 3/10: {line_3rrr(-0.2)}, {line_3rrr(0.3)}; degree {degree_3rrr():.3f}")
     for cx in (0.2, 0.5, -0.5):
         print(f"degenerate_3rpr: cx = {cx}: cusps for legs longer than {degenerate_3rpr(cx, 0.8)}")
     print(f"rpr_2prr: cusps, leg 1/2, leg 1/4: {rpr_2prr(0.5)}, {rpr_2prr(0.25)}")
