@@ -408,7 +408,7 @@ def bricard():
 
 
 def griffis_duffy():
-    """The legs' lines are dependent in every pose: the largest determinant at random poses, and the least with a leg moved."""
+    """The legs' lines are dependent in every pose: the largest determinant at random poses, the least with a leg moved."""
     corner = [np.array([np.cos(a), np.sin(a), 0]) * 2 / np.sqrt(3) for a in 2 * PI / 3 * np.arange(3)]
     middle = [(corner[k] + corner[(k + 1) % 3]) / 2 for k in range(3)]
     base = [corner[0], middle[0], corner[1], middle[1], corner[2], middle[2]]
