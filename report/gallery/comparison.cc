@@ -114,16 +114,17 @@ std::vector<GalleryFinding> compare(const GalleryQuestion& question, const Galle
   const bool whole = run.status == 0 && !says_no(answer, "complete") && !says_no(answer, "proven");
   const bool doubtful = has_doubtful_boxes(answer);
   for (const Expectation& e : question.expect) {
+    const bool expected_open = open || !e.open.empty();
     const json::json_pointer pointer(e.at);
     if (!answer.is_object() || !answer.contains(pointer)) {
       const std::string found = answer.is_object() ? "nothing at " + e.at : why_nothing(run);
-      findings.push_back({found, standing_of(e, false, false, open)});
+      findings.push_back({found, standing_of(e, false, false, expected_open)});
       continue;
     }
     const Said said = said_of(answer.at(pointer));
     const bool counts_boxes = e.at.starts_with("/boxes") || e.at.starts_with("/points");
     const bool proven = e.proven && whole && said.proven && !(counts_boxes && doubtful);
-    findings.push_back({said.text, standing_of(e, agrees(said, e), proven, open)});
+    findings.push_back({said.text, standing_of(e, agrees(said, e), proven, expected_open)});
   }
   return findings;
 }

@@ -30,7 +30,7 @@ enum class Standing {
   proven,         ///< the published number, with proof
   agrees,         ///< the published number; the entry says that there is no proof
   contradiction,  ///< proven, and not the published number: the entry says why
-  open,           ///< the entry says why it is not reached
+  open,           ///< the entry, or the expectation, says why it is not reached
   surprise,       ///< the entry says that it is open, but it is proven by now
   unproven,       ///< the published number, but the proof is missing
   missed,         ///< another number
@@ -45,7 +45,7 @@ struct GalleryFinding {
   Standing standing = Standing::missed;
 };
 
-/// Of each expectation of the question. `open`: the entry is.
+/// Of each expectation of the question. `open`: the whole entry is.
 std::vector<GalleryFinding> compare(const GalleryQuestion& question, const GalleryRun& run, bool open);
 
 /// The boxes that the run processed, as its JSON says; 0: it does not say.

@@ -24,6 +24,7 @@ struct Expectation {
   double tolerance = 0;       ///< of a number; where corank gives bounds, of each of them
   std::string published;      ///< the number as the publication has it
   std::string contradiction;  ///< not empty: the value is not what was published; why, and how that was checked
+  std::string open;           ///< not empty: why corank does not reach this number
   bool proven = true;         ///< false: corank has no proof of it, and need not have one
 };
 
@@ -63,7 +64,7 @@ struct GalleryEntry {
   std::string source, doi, key;  ///< the publication, as a citation; its key in doc/references.bib
   Certainty certainty = Certainty::read;
   std::string derived;  ///< how its numbers were found by other means; empty unless they were
-  std::string open;     ///< not empty: why its numbers are not reached
+  std::string open;     ///< not empty: why none of its numbers is reached
   bool quick = false;   ///< takes seconds; part of the tests
   std::string report;   ///< a command that writes a report into the folder "page"; empty: none
   std::vector<GalleryQuestion> questions;

@@ -98,6 +98,7 @@ Expectation expectation_of(EntryTable& table) {
   e.tolerance = table.number("tolerance", 0);
   e.published = table.text("published", true);
   e.contradiction = table.text("contradiction");
+  e.open = table.text("open");
   e.proven = table.flag("proven", true);
   return e;
 }

@@ -79,6 +79,7 @@ TemplateData number_row(const Expectation& e, const GalleryFinding& finding, con
   row["look"] = look_of(finding.standing);
   row["seconds"] = first ? fmt::format("{:.1f}", run.seconds) : "";
   row["contradiction"] = if_any(e.contradiction);
+  row["whyOpen"] = if_any(e.open);
   return row;
 }
 
@@ -121,7 +122,9 @@ TemplateData section_of(const GalleryResult& result, const fs::path& folder, Tem
   TemplateData section{"name", entry.name}, locus = empty_list(), drawn = empty_list();
   section["title"] = entry.title;
   section["about"] = entry.about;
-  section["standing"] = standing == Standing::agrees && sums_of({result}).proven > 0 ? "partly proven" : to_string(standing);
+  section["standing"] = (standing == Standing::agrees || standing == Standing::open) && sums_of({result}).proven > 0
+                            ? "partly proven"
+                            : to_string(standing);
   section["look"] = look_of(standing);
   section["rows"] = rows_of(result);
   section["commands"] = commands_of(result, link);

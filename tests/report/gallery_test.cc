@@ -190,6 +190,20 @@ TEST(Comparison, OfAnOpenEntryIsNoFailureAndNoticesThatItIsMet) {
   EXPECT_EQ(found(R"({"n": 2})", "/n", 2.0, 0, true).standing, Standing::surprise);
 }
 
+TEST(Comparison, OfOneOpenNumberIsNoFailureBesideOthersThatAreProven) {
+  Expectation known, unknown;
+  known.at = "/n", known.value = 2.0;
+  unknown.at = "/m", unknown.value = 3.0, unknown.open = "It takes longer.";
+  GalleryRun run;
+  run.output = R"({"n": 2, "m": {"at_least": 1, "at_most": null}})";
+  const auto findings = compare({"solve", {known, unknown}}, run, false);
+  EXPECT_EQ(findings.at(0).standing, Standing::proven);
+  EXPECT_EQ(findings.at(1).standing, Standing::open);
+  run.output = R"({"n": 1, "m": 3})";
+  EXPECT_EQ(compare({"solve", {known, unknown}}, run, false).at(0).standing, Standing::missed);
+  EXPECT_EQ(compare({"solve", {known, unknown}}, run, false).at(1).standing, Standing::surprise);
+}
+
 TEST(Comparison, NamesAContradictionOnlyWhereItIsProven) {
   Expectation e;
   e.contradiction = "The paper counts a point twice.";
