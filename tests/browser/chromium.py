@@ -17,7 +17,38 @@ def find():
 class Browser:
     """One page. Everything the page asks of the network is in `requests`, what it prints or throws in `messages`."""
 
-    def __init__(self, width=1280, height=900, dark=False, scale=1, touch=False, calm=False, flags=()):
+    def __init__(self, width=1280, height=900, dark=False, scale=1, touch=False, calm=False, flags=(), beside=None):
+        """`beside`: a page whose process shows this one, too, which shares nothing else with it."""
+        self.session, self.beside, self.context = None, beside, None
+        self.requests, self.messages, self.loaded = [], [], 0
+        if beside:
+            self.commands, self.answers, self.numbers, self.pages = (
+                beside.commands,
+                beside.answers,
+                beside.numbers,
+                beside.pages,
+            )
+            self.context = self.call("Target.createBrowserContext")["browserContextId"]
+        else:
+            self._start(flags)
+        where = {"browserContextId": self.context} if self.context else {}
+        target = self.call("Target.createTarget", url="about:blank", **where)["targetId"]
+        self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        self.pages[self.session] = self
+        for domain in ("Page", "Network", "Runtime", "Log"):
+            self.call(f"{domain}.enable")
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=touch)
+        self.call(
+            "Emulation.setEmulatedMedia",
+            features=[
+                {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+                {"name": "prefers-reduced-motion", "value": "reduce" if calm else "no-preference"},
+            ],
+        )
+        if touch:
+            self.call("Emulation.setTouchEmulationEnabled", enabled=True)
+
+    def _start(self, flags):
         self.folder = tempfile.mkdtemp(prefix="corank-chromium-")
         command_read, command_write = os.pipe()
         answer_read, answer_write = os.pipe()
@@ -55,23 +86,7 @@ class Browser:
         os.close(answer_write)
         self.commands = os.fdopen(command_write, "wb", buffering=0)
         self.answers = os.fdopen(answer_read, "rb")
-        self.numbers = itertools.count(1)
-        self.session = None
-        self.requests, self.messages, self.loaded = [], [], 0
-        target = self.call("Target.createTarget", url="about:blank")["targetId"]
-        self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
-        for domain in ("Page", "Network", "Runtime", "Log"):
-            self.call(f"{domain}.enable")
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=touch)
-        self.call(
-            "Emulation.setEmulatedMedia",
-            features=[
-                {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
-                {"name": "prefers-reduced-motion", "value": "reduce" if calm else "no-preference"},
-            ],
-        )
-        if touch:
-            self.call("Emulation.setTouchEmulationEnabled", enabled=True)
+        self.numbers, self.pages = itertools.count(1), {}
 
     @staticmethod
     def _above(descriptor):
@@ -85,8 +100,12 @@ class Browser:
         return self
 
     def __exit__(self, *_):
+        del self.pages[self.session]
+        self.session = None
+        if self.beside:
+            self.call("Target.disposeBrowserContext", browserContextId=self.context)
+            return
         try:
-            self.session = None
             self.call("Browser.close")
         except (OSError, EOFError, RuntimeError):
             pass
@@ -103,15 +122,16 @@ class Browser:
             text += byte
         message = json.loads(text)
         method, values = message.get("method"), message.get("params", {})
+        page = self.pages.get(message.get("sessionId"), self)
         if method == "Network.requestWillBeSent":
-            self.requests.append(values["request"]["url"])
+            page.requests.append(values["request"]["url"])
         elif method == "Runtime.exceptionThrown":
             details = values["exceptionDetails"]
-            self.messages.append(details.get("exception", {}).get("description", details["text"]))
+            page.messages.append(details.get("exception", {}).get("description", details["text"]))
         elif method == "Log.entryAdded" and values["entry"]["level"] == "error":
-            self.messages.append(values["entry"]["text"])
+            page.messages.append(values["entry"]["text"])
         elif method == "Page.loadEventFired":
-            self.loaded += 1
+            page.loaded += 1
         return message
 
     def call(self, method, **values):

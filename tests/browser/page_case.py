@@ -44,7 +44,7 @@ class PageCase(unittest.TestCase):
         self.assertEqual(self.browser.messages, [])
 
     def test_a_phone_shows_the_page_without_scrolling_sideways(self):
-        with chromium.Browser(390, 844, dark=True, touch=True) as phone:
+        with chromium.Browser(390, 844, dark=True, touch=True, beside=self.browser) as phone:
             phone.open(PAGE)
             phone.drawn()
             self.assertLessEqual(phone.run("document.documentElement.scrollWidth"), 390)

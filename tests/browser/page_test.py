@@ -229,7 +229,7 @@ class Dextar(page_case.PageCase):
         self.assertEqual(self.shown()["set"], "cspace")
 
     def test_who_asks_for_less_motion_has_the_slider_only(self):
-        with chromium.Browser(1360, 1000, calm=True) as browser:
+        with chromium.Browser(1360, 1000, calm=True, beside=self.browser) as browser:
             browser.open(page_case.PAGE)
             browser.drawn()
             browser.run("corank.panel.pinBox(corank.model.sets.find((s) => s.name === 'forward'), 5)")

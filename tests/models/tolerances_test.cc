@@ -26,10 +26,10 @@ symbolic::Mechanism dextar(double tolerance) {
   return model;
 }
 
-Cover solved_for_all(const System& system, const std::optional<double>& sigma = std::nullopt) {
+Cover solved_for_all(const System& system, const std::optional<double>& sigma = std::nullopt, bool proof = true) {
   solve::Options options;
   options.sigma = sigma;
-  options.proof = true;
+  options.proof = proof;
   return solve::solve(system, options);
 }
 
@@ -159,9 +159,10 @@ TEST(Tolerances, ProvenBoxesHoldOneSolutionOfEachRobot) {
     const TwoGraphs plan(random);
     const System system = study::system({symbolic::parse_model(plan.text(), "two graphs")});
     ASSERT_EQ(system.parameters(), 1);
-    const Cover cover = solved_for_all(system, 0.25);
+    const bool is_verified = seed % 10 == 0;
+    const Cover cover = solved_for_all(system, 0.25, is_verified);
     ASSERT_TRUE(cover.complete()) << plan.text();
-    if (seed % 10 == 0) expect_verified(system, cover);
+    if (is_verified) expect_verified(system, cover);
     const int s = system.find("s"), x = system.find("x"), y = system.find("y"), p = system.find("p");
     const test::CoverLookup lookup(cover);
     std::uniform_real_distribution<double> unit(-1, 1);
