@@ -184,7 +184,7 @@ TEST(RequiredAspects, OfRandomFiveBarsContradictNoGrid) {
   std::mt19937 random(11);
   const auto in = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
   int exact = 0, representatives = 0;
-  for (unsigned trial = 0; trial < test::seeds(2); ++trial) {
+  for (unsigned trial = 0; trial < test::seeds(1); ++trial) {
     FiveBar robot{std::round(100 * in(0.8, 1)) / 100, std::round(100 * in(1.1, 1.3)) / 100,
                   std::round(10 * in(1.2, 3)) / 10};
     SCOPED_TRACE(std::to_string(robot.l) + " " + std::to_string(robot.d) + " " + std::to_string(robot.most));
@@ -229,7 +229,8 @@ TEST(RequiredAspects, OfDextarAreCountedAndChecked) {
   const result::PiecesFile file =
       file_of(symbolic::read_model(CORANK_SOURCE_DIR "/models/dextar.cuik"), {"amplification(outputs) <= 2"});
   EXPECT_EQ(file.lists[0].members_with(1), 10);
-  expect_complete_file(file, 10);
+  EXPECT_EQ(file.lists[0].at_most, 10);
+  if (test::long_run()) expect_complete_file(file, 10);  // half a minute
 }
 
 // What a member says of the requirements is found out, and what the text asks for is part of it.
