@@ -46,7 +46,8 @@ study::Question as_drawn(study::Question question) {
   return question;
 }
 
-/// Writes each set's file, too, with `suffix` behind its name. `left_out`: sets of very many parts whose equations took longer than their search may.
+/// Writes each set's file, too, with `suffix` behind its name. `left_out`: sets of very many parts whose equations took
+/// longer than their search may.
 std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question,
                                        std::vector<std::string>& files, std::vector<std::string>& left_out,
                                        const std::string& suffix = "") {

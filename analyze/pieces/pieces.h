@@ -39,8 +39,8 @@ struct Pieces {
 Pieces pieces(SignCells& cells, solve::Control& control);
 
 /// Leaves out those pieces whose representatives do not meet, or are not shown to meet, what is required of the robot;
-/// of each it is asked by `standing`. Theorem: of pieces that differ, those that do not meet it are no more than at_most less
-/// those that do. Requires that requirements are met on a whole piece or nowhere in it (symbolic::required_space).
+/// of each it is asked by `standing`. Theorem: of pieces that differ, those that do not meet it are no more than at_most
+/// less those that do. Requires that requirements are met on a whole piece or nowhere in it (symbolic::required_space).
 void keep_required(Pieces& pieces, const std::function<Standing(const Box&)>& standing);
 
 /// Of each box of some cover of the set, for pictures, the number of the piece in which its solutions are that are in any;
