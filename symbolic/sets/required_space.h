@@ -18,7 +18,8 @@ namespace corank::symbolic {
 ///   on a connected piece of {g ≠ 0} A keeps its rank, and the form's inertia is the same everywhere.
 /// A loses rank at singular configurations only: A is L, or L without the inputs but one column, of which L_y is a part.
 /// g = a² b with polynomials a and b, b without squares, has the sign of b where a ≠ 0. Where b is a product, its factors
-/// are functions, too, and it is no inequality: where two of them cross, b has a saddle, which no bound of a number resolves.
+/// are functions, too, and it is no inequality: where two of them cross, b has a saddle, which no bound of a number
+/// resolves.
 ///
 /// So at each configuration that is not singular and meets the requirements the inequalities hold strictly and no function
 /// is 0; and each piece of what these leave meets the requirements everywhere, or nowhere: g > 0 does not tell two negative
