@@ -77,6 +77,7 @@ void add_aspects(CLI::App& program, Action& action) {
       "aspects", "Find the pieces into which singularities divide a C-space: aspects, assembly modes, working modes");
   const auto command = std::make_shared<AspectsCommand>();
   command->question.add_model(*sub);
+  command->question.add_require(*sub, "Only pieces in which all of them are met count");
   command->question.add_definitions(*sub);
   add_analysis_limits(*sub, command->options.threads, command->time_limit);
   sub->add_option(
@@ -97,10 +98,12 @@ void add_aspects(CLI::App& program, Action& action) {
   sub->footer(
       "C-space is the set of all configurations. Its pieces without forward and inverse singularities are the aspects. Its\n"
       "pieces without forward singularities are the assembly modes, those without inverse singularities are the working\n"
-      "modes. corank proves the number of each, or bounds of it.\n\n"
+      "modes. corank proves the number of each, or bounds of it. Where something is required of the robot, by the model or\n"
+      "by --require, the limits of the requirements are borders, too, and only pieces in which they are met count.\n\n"
       "Exit status: 0 done; 1 bad input, or there is nothing to write to the file of -o; 2 wrong usage; 3 stopped by a\n"
       "limit or an interrupt.\n\n"
       "Examples:\n  corank aspects models/dextar.cuik\n  corank aspects models/dextar.cuik -o aspects.svg\n"
+      "  corank aspects models/dextar.cuik --require 'amplification(outputs) <= 2'\n"
       "  corank aspects models/dextar.cuik -o aspects.h5\n  corank verify aspects.h5");
   sub->callback([command, &action] { action = [command] { return aspects(*command); }; });
 }

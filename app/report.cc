@@ -35,9 +35,22 @@ struct ReportCommand {
   JsonOption json;
 };
 
-/// Writes each set's file, too. `left_out`: sets of very many parts whose equations took longer than their search may.
+/// The robot as drawn, without its tolerances.
+study::Question as_drawn(study::Question question) {
+  for (const symbolic::Constant& c : question.model.constants()) {
+    if (!c.tolerance) continue;
+    std::erase_if(question.constants, [&](const result::ConstantOverride& own) { return own.name == c.name; });
+    question.constants.push_back({c.name, c.value.text()});
+  }
+  question.model = question.model.nominal();
+  return question;
+}
+
+/// Writes each set's file, too, with `suffix` behind its name. `left_out`: sets of very many parts whose equations took
+/// longer than their search may.
 std::vector<report::SetView> solve_all(const ReportCommand& command, const study::Question& question,
-                                       std::vector<std::string>& files, std::vector<std::string>& left_out) {
+                                       std::vector<std::string>& files, std::vector<std::string>& left_out,
+                                       const std::string& suffix = "") {
   std::vector<report::SetView> views;
   std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
@@ -49,8 +62,8 @@ std::vector<report::SetView> solve_all(const ReportCommand& command, const study
     }
     const result::Result& result = view->result;
     ProgressLine line;
-    line.show("writing " + result.set + ".h5");
-    files.push_back(result.set + ".h5");
+    files.push_back(result.set + suffix + ".h5");
+    line.show("writing " + files.back());
     result::write_result(std::filesystem::path(command.folder) / files.back(), result,
                          [] { return Interrupt::stop().load(); });
     views.push_back(std::move(*view));
@@ -141,6 +154,7 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   command.search.validate();
   static auto* const kept = new std::list<std::vector<report::SetView>>;  // not freed: the process ends with the command
   std::vector<report::SetView>& views = kept->emplace_back();
+  std::vector<report::SetView>& drawn = kept->emplace_back();  // of the robot as drawn, where constants have tolerances
   if (!command.results.empty()) views = read_all(command.results);
   const study::Question question =
       views.empty() ? load(command.question) : study::Question{.model = result::model_of(views.front().result)};
@@ -162,6 +176,8 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     for (const std::string& set : left_out)
       fmt::print(stderr, "corank: {}: its equations were not derived in time; it is left out\n", set);
     if (views.empty()) return kIncomplete;
+    std::vector<std::string> files;
+    if (!mechanism.toleranced().empty()) drawn = solve_all(command, as_drawn(question), files, left_out, "-as-drawn");
     options.command = command.search.command_line("report", command.question);
   } else {
     options.command = "corank report --results " + fmt::format("{}", fmt::join(command.results, " "));
@@ -172,7 +188,9 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   {
     ProgressLine line;
     std::vector<report::PictureSource> sources;
-    for (const report::SetView& view : views) sources.push_back(report::picture_view(view.result, view.result.set));
+    for (const report::SetView& view : views)
+      sources.push_back(report::picture_view(view.result, drawn.empty() ? view.result.set : "every robot"));
+    for (const report::SetView& view : drawn) sources.push_back(report::picture_view(view.result, "as drawn"));
     figures = report::write_figures(folder, mechanism, std::move(sources),
                                     {&Interrupt::stop(), [&line](const std::string& text) { line.show(text); }});
     options.figures = figures.files;
@@ -181,7 +199,8 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   }
 
   bool complete = !figures.stopped && left_out.empty();
-  for (const auto& view : views) complete = complete && view.result.cover.complete() && view.result.stopped.empty();
+  for (const auto* list : {&views, &drawn})
+    for (const auto& view : *list) complete = complete && view.result.cover.complete() && view.result.stopped.empty();
   const bool table = command.json.say(
       [&] { return report::page_summary(mechanism.name(), (folder / "index.html").string(), options, views, complete); });
   if (table)
@@ -190,9 +209,10 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     if (warn_of_assembly(view.result)) break;  // it is the same of the others
   if (table) fmt::print("{}\n", result::printable_line((folder / "index.html").string()));
   if (complete) return kDone;
-  for (const auto& view : views)
-    if (!view.result.cover.complete() || !view.result.stopped.empty())
-      fmt::print(stderr, "corank: {}: {}\n", view.result.set, study::stopped_words(view.result));
+  for (const auto* list : {&views, &drawn})
+    for (const auto& view : *list)
+      if (!view.result.cover.complete() || !view.result.stopped.empty())
+        fmt::print(stderr, "corank: {}: {}\n", view.result.set, study::stopped_words(view.result));
   if (figures.stopped) fmt::print(stderr, "corank: stopped by an interrupt, in the stage figures\n");
   fmt::print(stderr, "corank: the report is incomplete, and says what is missing\n");
   return kIncomplete;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "corank/check/classes.h"
@@ -11,6 +10,7 @@
 #include "corank/check/inertia.h"
 #include "corank/check/krawczyk.h"
 #include "corank/check/pieces_bound.h"
+#include "corank/check/requirement.h"
 #include "corank/check/sheets.h"
 #include "corank/core/box.h"
 
@@ -38,8 +38,11 @@ using Mask = std::uint32_t;
 struct Cell {
   std::size_t box = 0;
   Sides sides;
+  int depth = 0;
   Box hull{};  // in doubles
   Mask positive = 0, mixed = 0;
+  bool ends = false;      // a limit may be reached in it
+  bool contested = true;  // it may hang together with two members
 };
 
 class PieceCheck {
@@ -48,6 +51,7 @@ class PieceCheck {
              const PieceClaims& claims, int threads)
       : problem_(problem), reduced_(reduced), cover_(cover), functions_(functions), claims_(claims), threads_(threads) {
     for (const Polynomial& g : functions.functions) rows_.emplace_back(g, problem.size());
+    for (const Polynomial& g : functions.requirement_functions) requirement_rows_.emplace_back(g, problem.size());
     for (std::size_t m = 0; m < matrices_.size(); ++m) matrices_[m] = entries_of(functions.matrices[m], problem.size());
   }
 
@@ -60,8 +64,14 @@ class PieceCheck {
     if (report_.failures.empty()) check_distinct_members();
     if (!report_.failures.empty()) return std::move(report_);
     bool bounded = false;
+    std::vector<Cell> cells;
+    for (std::size_t b = 0; b < cover_.boxes.size(); ++b) {
+      problem_.stop().poll();
+      const Box& box = cover_.boxes[b].box;
+      Cell cell{.box = b, .sides = Sides(box.begin(), box.end())};
+      if (examine(cell)) cells.push_back(std::move(cell));
+    }
     for (const int halvings : {4, 8, 11, 14, 17}) {
-      std::vector<Cell> cells;
       if (!divide(halvings, cells)) break;
       report_.cells = cells.size();
       report_.at_least = count(cells);
@@ -79,6 +89,8 @@ class PieceCheck {
     if (report_.failures.empty() && report_.at_most && *report_.at_most < report_.at_least)
       fail("at least " + std::to_string(report_.at_least) + " pieces and at most " + std::to_string(*report_.at_most) +
            " are shown: these contradict each other");
+    report_.at_least = std::max(0, report_.at_least - claims_.members_with(0) - claims_.members_with(-1));
+    if (report_.at_most) *report_.at_most -= claims_.members_with(-1);
     return std::move(report_);
   }
 
@@ -126,6 +138,8 @@ class PieceCheck {
       if (!(member.signs[g] == 1 ? value.is_positive() : member.signs[g] == -1 && value.is_negative()))
         return fail(name + "the sign of function " + std::to_string(g + 1) + " is not what it says");
     }
+    if (member.requirements != 0 && member.requirements != requirements_at(x))
+      return fail(name + "what it says of the requirements is not shown");
     for (std::size_t m = 0; m < matrices_.size(); ++m) {
       const PolynomialMatrix& matrix = functions_.matrices[m];
       if (member.determinant_signs[m] == 0) continue;
@@ -134,6 +148,18 @@ class PieceCheck {
     }
     members_.push_back(x);
     ++report_.members;
+  }
+
+  // Met (1), not met (-1), or not known (0) at the solution.
+  int requirements_at(const Sides& x) const {
+    const auto form = [&](int function) { return Form{requirement_rows_[function].value(x), {}}; };
+    int all = 1;
+    for (const Requirement& r : functions_.requirements) {
+      const Standing found = standing(r, form, {});
+      if (found == Standing::violated) return -1;
+      if (found == Standing::open) all = 0;
+    }
+    return all;
   }
 
   static bool apart(const Sides& x, const Sides& y) {
@@ -168,12 +194,20 @@ class PieceCheck {
       if (!newton.shrink(cell.sides, newton.image(cell.sides))) return false;
       linear = true;
     }
-    for (const Condition& c : problem_.conditions())
-      if (problem_.is_end(c) && c.row.value(cell.sides).is_negative()) return false;
+    const auto bound = [&](const Row& row, Enclosure& value) {
+      value = row.value(cell.sides);
+      return !(linear && value.has_zero()) || value.intersect(newton.value_at_zeros(row, cell.sides));
+    };
+    Enclosure value;
+    cell.ends = false;
+    for (const Condition& c : problem_.conditions()) {
+      if (!problem_.is_end(c)) continue;
+      if (!bound(c.row, value) || value.is_negative()) return false;
+      cell.ends = cell.ends || !value.is_positive();
+    }
     cell.positive = cell.mixed = 0;
     for (std::size_t g = 0; g < rows_.size(); ++g) {
-      Enclosure value = rows_[g].value(cell.sides);
-      if (linear && value.has_zero() && !value.intersect(newton.value_at_zeros(rows_[g], cell.sides))) return false;
+      if (!bound(rows_[g], value)) return false;
       if (value.has_zero()) cell.mixed |= Mask{1} << g;
       if (value.is_positive()) cell.positive |= Mask{1} << g;
     }
@@ -181,24 +215,23 @@ class PieceCheck {
     return true;
   }
 
+  // The contested ones.
   bool divide(int halvings, std::vector<Cell>& cells) const {
     const std::vector<double> lengths = domain_lengths(problem_.system());
-    for (std::size_t b = 0; b < cover_.boxes.size(); ++b) {
-      const CoverBox& box = cover_.boxes[b];
-      std::vector<std::pair<Cell, int>> open;
-      open.emplace_back(Cell{.box = b, .sides = Sides(box.box.begin(), box.box.end())}, 0);
-      while (!open.empty()) {
-        problem_.stop().poll();
-        auto [cell, depth] = std::move(open.back());
-        open.pop_back();
-        if (!examine(cell)) continue;
-        if (cells.size() + open.size() > kMostCells) return false;
-        auto halves = cell.mixed == 0 || depth == halvings ? std::nullopt : halved(cell.sides, box.free, lengths);
-        if (!halves) {
-          cells.push_back(std::move(cell));
-          continue;
-        }
-        for (Sides& half : *halves) open.emplace_back(Cell{.box = b, .sides = std::move(half)}, depth + 1);
+    std::vector<Cell> open;
+    std::swap(open, cells);
+    while (!open.empty()) {
+      problem_.stop().poll();
+      Cell cell = std::move(open.back());
+      open.pop_back();
+      if (cells.size() + open.size() > kMostCells) return false;
+      const bool whole = !cell.contested || (cell.mixed == 0 && !cell.ends) || cell.depth >= halvings;
+      auto halves = whole ? std::nullopt : halved(cell.sides, cover_.boxes[cell.box].free, lengths);
+      if (!halves) cells.push_back(std::move(cell));
+      if (!halves) continue;
+      for (Sides& half : *halves) {
+        Cell child{.box = cell.box, .sides = std::move(half), .depth = cell.depth + 1};
+        if (examine(child)) open.push_back(std::move(child));
       }
     }
     return true;
@@ -213,7 +246,7 @@ class PieceCheck {
     }
   }
 
-  int count(const std::vector<Cell>& cells) const {
+  int count(std::vector<Cell>& cells) const {
     std::vector<std::map<Mask, std::size_t>> parts(cells.size());
     std::size_t number = 0;
     for (std::size_t c = 0; c < cells.size(); ++c)
@@ -244,8 +277,13 @@ class PieceCheck {
       }
       if (first) at.push_back(*first);
     }
-    std::set<std::size_t> pieces;
-    for (const std::size_t part : at) pieces.insert(classes.of(part));
+    std::map<std::size_t, int> pieces;  // of each how many members it has
+    for (const std::size_t part : at) ++pieces[classes.of(part)];
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      cells[c].contested = std::ranges::any_of(parts[c], [&](const auto& part) {
+        const auto piece = pieces.find(classes.of(part.second));
+        return piece != pieces.end() && piece->second > 1;
+      });
     return static_cast<int>(pieces.size());
   }
 
@@ -255,7 +293,7 @@ class PieceCheck {
   const PieceFunctions& functions_;
   const PieceClaims& claims_;
   int threads_;
-  std::vector<Row> rows_;
+  std::vector<Row> rows_, requirement_rows_;
   std::array<RowMatrix, 2> matrices_;
   std::vector<Sides> members_;
   PieceReport report_;

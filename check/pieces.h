@@ -7,6 +7,10 @@
 // way are in different pieces. A member is a solution, within the ends of the domain, where each function has the sign
 // that is claimed.
 //
+// Requirements are met on a whole piece or nowhere in it (doc/theory.md, "Requirements"): a member says which. Pieces whose
+// members do not show that requirements are met are not counted from below; those whose members show that one is not met
+// are not counted from above, either.
+//
 // at_most, that no further piece hides about the functions' zeros, is checked where the file says where to look: see
 // check/pieces_bound.h.
 #pragma once
@@ -17,6 +21,7 @@
 
 #include "corank/check/checker.h"
 #include "corank/core/pieces.h"
+#include "corank/core/requirement.h"
 
 namespace corank::check {
 
@@ -25,11 +30,13 @@ struct PieceFunctions {
   std::vector<Polynomial> functions;  ///< as the file names them, which fixes their signs
   std::vector<Polynomial> factors;    ///< as the model gives them: the same, but for their order and rational multiples
   std::array<PolynomialMatrix, 2> matrices;
+  std::vector<Requirement> requirements{};  ///< their variables are indices into these functions
+  std::vector<Polynomial> requirement_functions{};
 };
 
 struct PieceReport {
   std::size_t members = 0;     ///< that are confirmed
-  int at_least = 0;            ///< pieces that are confirmed
+  int at_least = 0;            ///< pieces that are confirmed, those that meet the requirements
   std::optional<int> at_most;  ///< likewise; nothing: `unbounded` says why
   std::string unbounded;
   bool bounded = false;  ///< the upper bound that is claimed is confirmed

@@ -282,7 +282,7 @@ std::string check_sheet(const Problem& problem, const std::vector<Row>& equation
 }
 
 Sides solution_near(const Problem& problem, const std::vector<double>& point, const std::vector<int>& held_variables,
-                    std::string& fault) {
+                    std::string& fault, const std::vector<Interval>& over) {
   constexpr int kInflations = 12, kSteps = 3;
   const std::size_t n = problem.system().variables.size();
   const auto no = [&](const char* why) {
@@ -303,6 +303,7 @@ Sides solution_near(const Problem& problem, const std::vector<double>& point, co
     x.emplace_back(c - radius, c + radius);
     if (!held[j]) dependent.push_back(static_cast<int>(j));
   }
+  for (std::size_t k = 0; k < over.size(); ++k) x[held_variables[k]] = Enclosure(over[k]);
   Krawczyk newton(problem.equations(), static_cast<int>(n));
   if (dependent.size() != problem.equations().size())
     return no("the number of variables that it holds is not the dimension of the set");

@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "corank/analyze/paths/standing.h"
+#include "corank/analyze/sets/standing.h"
 #include "corank/core/requirement.h"
 #include "corank/report/html/live_page.h"
 #include "corank/report/html/page.h"

@@ -4,10 +4,13 @@
 
 #include "corank/analyze/aspects/aspect_product.h"
 #include "corank/analyze/aspects/divided_space.h"
+#include "corank/analyze/clearance/ball.h"
+#include "corank/analyze/sets/standing.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/determinant_factors.h"
+#include "corank/symbolic/sets/required_space.h"
 
 namespace corank::analyze {
 namespace {
@@ -42,20 +45,29 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   Aspects result;
   study::require_exact_constants(question.model, "corank aspects");
   question.set = symbolic::SingularitySet::cspace;
-  const symbolic::TrigonometricSystem equations = study::equations(question);
-  result.system = study::system(question, equations);
+  symbolic::TrigonometricSystem equations = study::equations(question);
   const Ended ended = [&control] { return control.ended(); };
   symbolic::Loci loci;
   try {
     loci = symbolic::singularity_loci(question.model, ended);
+    if (options.requirements && !question.model.requirements().empty()) {
+      if (options.cusps) throw question_error(question, "cusps are asked for, and requirements are there", "one of both");
+      result.required = question.model.requirement_texts();
+      const symbolic::RequiredSpace required = symbolic::required_space(question.model, ended);
+      for (const auto& e : required.functions) result.further_factors.push_back(e.text());
+      loci.add(required.functions);
+      equations.inequalities.insert(equations.inequalities.end(), required.inequalities.begin(),
+                                    required.inequalities.end());
+    }
   } catch (const symbolic::DeterminantTooLarge& error) {
     result.reason = error.what();
     return result;
   }
+  result.system = study::system(question, equations);
   for (const auto& e : loci.factors[0]) result.forward_factors.push_back(e.text());
   for (const auto& e : loci.factors[1]) result.inverse_factors.push_back(e.text());
 
-  if (count_in_free_coordinates(question, equations, loci, options, control, result)) {
+  if (result.required.empty() && count_in_free_coordinates(question, equations, loci, options, control, result)) {
     add_determinant_signs(equations, loci, result);
     return result;
   }
@@ -67,14 +79,20 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   if (!result.reason.empty()) return result;
   if (options.certificate) result.cover = space.cover;
   const int dimension = space.cover->dimension;
-  const auto count = [&](const std::vector<symbolic::Expression>& functions, bool first) {
+  const auto lists = loci.lists();
+  const auto count = [&](std::size_t list) {
+    const bool first = list == 0;
     if (control.ended()) {
       Pieces unknown;
       unknown.reason = "the analysis was ended by a limit";
       return unknown;
     }
+    std::vector<symbolic::Expression> functions;
+    for (const std::size_t i : lists[list]) functions.push_back(loci.all_factors[i]);
     SignCells cells = cells_of(space, symbolic::polynomials(equations, functions), options, control);
     Pieces found = pieces(cells, control);
+    if (!result.required.empty())
+      keep_required(found, [&](const Box& box) { return standing_in(question.model, equations, box); });
     const bool plane = dimension == 2 && options.images.size() == 2 && found.exact();
     const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
     if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
@@ -83,12 +101,12 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
     if (first && options.placed) result.places = piece_places(cells, found, options.placed->boxes, control);
     return found;
   };
-  result.aspects = count(loci.all_factors, true);
+  result.aspects = count(0);
   if (result.cusps && dimension == 2 && result.limits.empty())
     check_parity(question, options.threads, control, *result.cusps);
   add_determinant_signs(equations, loci, result);
-  result.assembly_modes = count(loci.factors[0], false);
-  result.working_modes = count(loci.factors[1], false);
+  result.assembly_modes = count(1);
+  result.working_modes = count(2);
   return result;
 }
 

@@ -6,6 +6,7 @@
 //
 // Counted on cells (sign_cells.h) of a C-space that is smooth in the search domain, strictly within its limits. In each
 // piece the factors of the determinants of L_y and L_z keep their signs.
+// Where the mechanism has requirements, only pieces in which they are met count: their limits divide C-space, too.
 #pragma once
 
 #include <array>
@@ -35,6 +36,8 @@ struct Aspects {
   /// singularities divide. Their numbers of pieces are multiplied. What is drawn and asked of images and cusps is left out.
   std::vector<AspectsPart> product_of;
   std::vector<std::string> forward_factors, inverse_factors;  ///< of det L_y, det L_z
+  std::vector<std::string> required;                          ///< that pieces meet
+  std::vector<std::string> further_factors;                   ///< that divide C-space as well, of requirements' limits
   std::vector<std::string> limits;                            ///< to which C-space comes: pieces are strictly within
   System system;                                              ///< C-space: the variables of the boxes
   std::string reason;                                         ///< why nothing is known; empty where something is
@@ -56,11 +59,13 @@ struct AspectsOptions {
   std::vector<std::string> images{};  ///< two lengths, of a C-space of two dimensions
   int rows = 120;                     ///< of the images' grid
   bool cusps = false;                 ///< look for the cusps of both loci
+  bool requirements = true;           ///< count pieces that meet the mechanism's requirements alone
   bool certificate = false;           ///< keep what it takes to check the result
   const Cover* placed = nullptr;      ///< of C-space, to be looked at
 };
 
-/// Throws symbolic::ModelError where the model has no inputs or outputs, or L_y or L_z is not square.
+/// Throws symbolic::ModelError where the model has no inputs or outputs, L_y or L_z is not square, or requirements are none
+/// that symbolic::required_space takes, or asked for beside cusps.
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control);
 
 /// "10 aspects, 2 assembly modes, 4 working modes", or bounds. Requires that something is known.

@@ -84,8 +84,13 @@ void add_claims(PieceClaims& claims, const Pieces& pieces) {
   claims.at_most = pieces.at_most;
   if (claims.at_most) claims.proof = pieces.proof;
   // Of pieces that are not known to differ there may be more.
-  for (int i = 0; i < claims.at_least; ++i)
+  for (int i = 0; i < pieces.at_least; ++i)
     claims.members.push_back({pieces.representatives[i], pieces.free[i], pieces.signs[i]});
+  for (const PieceMember& member : pieces.beside) {
+    ++claims.at_least;
+    if (claims.at_most && member.requirements < 0) ++*claims.at_most;
+    claims.members.push_back(member);
+  }
 }
 
 }  // namespace
@@ -108,9 +113,12 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
   file.lists[2].factors = a.inverse_factors;
   for (const std::string& f : a.inverse_factors)
     if (std::ranges::find(a.forward_factors, f) == a.forward_factors.end()) file.lists[0].factors.push_back(f);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const std::string& f : a.further_factors)
+      if (std::ranges::find(file.lists[k].factors, f) == file.lists[k].factors.end()) file.lists[k].factors.push_back(f);
   const std::array<const Pieces*, 3> lists{&a.aspects, &a.assembly_modes, &a.working_modes};
   for (std::size_t k = 0; k < lists.size(); ++k) add_claims(file.lists[k], *lists[k]);
-  for (std::size_t i = 0; i < file.lists[0].members.size(); ++i)
+  for (std::size_t i = 0; i < a.determinant_signs.size() && i < file.lists[0].members.size(); ++i)
     file.lists[0].members[i].determinant_signs = a.determinant_signs[i];
   return file;
 }
@@ -132,6 +140,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   for (const AspectsPart& part : a.product_of)
     text += fmt::format("  {} {}: {}\n", &part == &a.product_of.front() ? "a product of   " : "           and ",
                         fmt::join(part.coordinates, ", "), bounds(part.lists[0]));
+  for (const std::string& r : a.required) text += fmt::format("  required        {}\n", r);
   if (!a.limits.empty()) text += fmt::format("  strictly within {}\n", fmt::join(a.limits, ", "));
   const auto zeros = [](const std::vector<std::string>& factors) {
     return factors.empty() ? "nowhere" : fmt::format("where {} = 0", fmt::join(factors, " = 0 or "));
@@ -163,6 +172,7 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   for (const AspectsPart& part : a.product_of)
     json["product_of"].push_back({{"coordinates", part.coordinates}, {"aspects", bounds(part.lists[0])}});
   json["factors"] = {{"forward", a.forward_factors}, {"inverse", a.inverse_factors}};
+  json["require"] = a.required;
   json["limits"] = a.limits;
   json["representatives"] = Json::array();
   for (std::size_t k = 0; k < a.aspects.representatives.size(); ++k) {

@@ -325,7 +325,7 @@ std::optional<int> ParameterMapper::Parts::answer_at(const Box& sides, solve::Co
     const Components found = topology(at, {}, own).components;
     return found.exact() ? std::optional(found.at_least) : std::nullopt;
   }
-  const Aspects found = aspects(at, {}, own);
+  const Aspects found = aspects(at, {.requirements = false}, own);
   const Pieces& pieces = question.answer == MapAnswer::aspects          ? found.aspects
                          : question.answer == MapAnswer::assembly_modes ? found.assembly_modes
                                                                         : found.working_modes;

@@ -10,8 +10,8 @@
 
 #include "corank/analyze/paths/path_graph.h"
 #include "corank/analyze/paths/path_space.h"
-#include "corank/analyze/paths/standing.h"
 #include "corank/analyze/paths/tube_builder.h"
+#include "corank/analyze/sets/standing.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/exactness/exactness.h"

@@ -1,12 +1,14 @@
 // The pieces of a smooth set without the zeros of given functions, counted on cells (sign_cells.h).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "corank/analyze/pieces/sign_cells.h"
 #include "corank/core/pieces.h"
+#include "corank/core/requirement.h"
 
 namespace corank::analyze {
 
@@ -23,9 +25,11 @@ struct Pieces {
     int piece;               ///< index of its representative
   };
   std::vector<CellPart> parts;  ///< of the cells, which make the pieces
-  std::size_t cells = 0;        ///< of how many cells they are
-  std::string reason;           ///< why the bounds are apart; empty where they are not
-  PieceProof proof;             ///< of at_most, for others to check
+  /// Pieces that keep_required() took out: those that do not meet the requirements (−1), or may not (0).
+  std::vector<PieceMember> beside;
+  std::size_t cells = 0;  ///< of how many cells they are
+  std::string reason;     ///< why the bounds are apart; empty where they are not
+  PieceProof proof;       ///< of at_most, for others to check
 
   bool exact() const { return at_most && *at_most == at_least; }
 };
@@ -33,6 +37,11 @@ struct Pieces {
 /// at_most: the classes of parts of cells that are not empty, joined where a solution in two parts is proven; nothing where
 /// some part may hide another piece. at_least: those classes, joined where cells touch and have parts of the same signs.
 Pieces pieces(SignCells& cells, solve::Control& control);
+
+/// Leaves out those pieces whose representatives do not meet, or are not shown to meet, what is required of the robot;
+/// of each it is asked by `standing`. Theorem: of pieces that differ, those that do not meet it are no more than at_most
+/// less those that do. Requires that requirements are met on a whole piece or nowhere in it (symbolic::required_space).
+void keep_required(Pieces& pieces, const std::function<Standing(const Box&)>& standing);
 
 /// Of each box of some cover of the set, for pictures, the number of the piece in which its solutions are that are in any;
 /// where there are several the one of a solution next to its middle. −1: none is known. Ends early, with −1 of the rest,

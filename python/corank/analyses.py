@@ -116,6 +116,7 @@ class Aspects(Analysis, Certified):
         working_modes: the number of pieces without inverse singularities.
         representatives: for each aspect, a configuration (intervals by coordinate) and the signs of the factors of the
             determinants.
+        require: the requirements that are met in these pieces (with_requirements()).
         reason: what is not known, and why.
         areas: with areas=True, bounds of the area that each aspect covers in the plane of the outputs; else None.
         cusps: with cusps=True, the cusps that were found; None if none were searched for.
@@ -136,6 +137,7 @@ class Aspects(Analysis, Certified):
         self.representatives: List[Tuple[Dict[str, Interval], List[int]]] = [
             (_values(r["values"]), r["signs"]) for r in pieces
         ]
+        self.require: List[str] = self.data["require"]
         self.areas: Optional[List[Interval]] = None
         if pieces and "area" in pieces[0]:
             self.areas = [Interval(r["area"]["lo"], r["area"]["hi"]) for r in pieces]

@@ -4,6 +4,8 @@
 #include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/determinant_factors.h"
 #include "corank/symbolic/sets/free_coordinates.h"
+#include "corank/symbolic/sets/required_space.h"
+#include "corank/symbolic/sets/requirements.h"
 
 namespace corank::result {
 namespace {
@@ -28,7 +30,11 @@ class Spaces {
   explicit Spaces(const symbolic::Mechanism& model) : model_(model) {}
 
   symbolic::TrigonometricSystem equations(const SpacePieces& pieces) {
-    return pieces.coordinates.empty() ? cspace_of(model_) : part(pieces.coordinates).system;
+    if (!pieces.coordinates.empty()) return part(pieces.coordinates).system;
+    symbolic::TrigonometricSystem system = cspace_of(model_);
+    const auto& inequalities = required().inequalities;
+    system.inequalities.insert(system.inequalities.end(), inequalities.begin(), inequalities.end());
+    return system;
   }
 
   std::vector<check::PieceFunctions> functions(const SpacePieces& pieces) {
@@ -38,14 +44,15 @@ class Spaces {
     if (pieces.coordinates.empty())
       matrices = {polynomials(system, loci().matrices[0]), polynomials(system, loci().matrices[1])};
     const auto lists = loci().lists();
+    const symbolic::Requirements requirements(model_);
     std::vector<check::PieceFunctions> result;
     for (std::size_t k = 0; k < lists.size(); ++k) {
       std::vector<symbolic::Expression> own;
       for (const std::size_t i : lists[k])
         if (pieces.coordinates.empty() || std::ranges::count(part(pieces.coordinates).functions, i) > 0)
           own.push_back(loci().all_factors[i]);
-      result.push_back(
-          {symbolic::polynomials(system, parsed(pieces.lists[k].factors)), symbolic::polynomials(system, own), matrices});
+      result.push_back({symbolic::polynomials(system, parsed(pieces.lists[k].factors)), symbolic::polynomials(system, own),
+                        matrices, requirements.of_functions(), symbolic::polynomials(system, requirements.functions())});
     }
     return result;
   }
@@ -53,6 +60,7 @@ class Spaces {
   // Are these the factors of the product, each once?
   bool are_all(const PiecesFile& file) {
     if (file.coordinates.empty()) return file.further.empty();
+    if (!model_.requirements().empty()) return false;  // they tie the factors
     std::vector<std::vector<std::string>> named{file.coordinates}, known;
     for (const SpacePieces& pieces : file.further) named.push_back(pieces.coordinates);
     for (const symbolic::IndependentPart& p : parts()) known.push_back(names_of(p.system.coordinates));
@@ -63,8 +71,14 @@ class Spaces {
 
  private:
   const symbolic::Loci& loci() {
-    if (!loci_) loci_ = symbolic::singularity_loci(model_);
+    if (loci_) return *loci_;
+    loci_ = symbolic::singularity_loci(model_);
+    loci_->add(required().functions);
     return *loci_;
+  }
+  const symbolic::RequiredSpace& required() {
+    if (!required_) required_ = symbolic::required_space(model_);
+    return *required_;
   }
   const std::vector<symbolic::IndependentPart>& parts() {
     if (!parts_) {
@@ -83,6 +97,7 @@ class Spaces {
 
   const symbolic::Mechanism& model_;
   std::optional<symbolic::Loci> loci_;
+  std::optional<symbolic::RequiredSpace> required_;
   std::optional<std::vector<symbolic::IndependentPart>> parts_;
 };
 
@@ -95,6 +110,7 @@ struct Sizes {
       field.box("", m.box, n);
       field.row("free", m.free, dimension, 0, kMostPieces);
       field.row("signs", m.signs, kAlike, -1, 1);
+      field("requirements", m.requirements, -1, 1);
       // The factors stand between.
     };
   }
@@ -215,8 +231,10 @@ void multiply_reports(check::PiecesReport& to, check::PiecesReport by) {
 // Of all spaces.
 PieceClaims claimed(const PiecesFile& file, std::size_t list) {
   PieceClaims result;
-  result.at_least = file.lists[list].at_least;
-  result.at_most = file.lists[list].at_most;
+  const PieceClaims& claims = file.lists[list];
+  result.at_least = claims.at_least - claims.members_with(0) - claims.members_with(-1);
+  result.at_most = claims.at_most;
+  if (result.at_most) *result.at_most -= claims.members_with(-1);
   for (const SpacePieces& pieces : file.further) multiply(result, pieces.lists[list]);
   return result;
 }

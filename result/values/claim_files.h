@@ -67,7 +67,7 @@ struct CertificateKind {
   const char* format;  ///< what format_of() says of the file
   int version = 1;
 };
-inline constexpr CertificateKind kShapeKind{"corank topology", 1}, kPiecesKind{"corank aspects", 2},
+inline constexpr CertificateKind kShapeKind{"corank topology", 1}, kPiecesKind{"corank aspects", 3},
     kPathKind{"corank path", 2}, kMapKind{"corank map", 2};
 
 /// Throw ResultFileError; symbolic::ModelError where the model has nothing of which this could be claimed. Once `in_haste`

@@ -131,6 +131,12 @@ RationalPolynomial RationalPolynomial::over(const RationalPolynomial& number) co
   return result;
 }
 
+std::optional<RationalPolynomial> RationalPolynomial::divided_by(const RationalPolynomial& divisor) const {
+  RationalPolynomial result(ring_);
+  if (fmpq_mpoly_divides(result.value_, value_, divisor.value_, ring_.context()) == 0) return std::nullopt;
+  return result;
+}
+
 std::string RationalPolynomial::text() const { return taken(fmpq_mpoly_get_str_pretty(value_, nullptr, ring_.context())); }
 
 RationalPolynomial RationalPolynomial::parsed(const PolynomialRing& ring, const std::string& text) {

@@ -52,6 +52,8 @@ class RationalPolynomial {
   /// With x^step replaced by a value throughout, x^(k·step + r) by value^k·x^r.
   RationalPolynomial with(std::size_t unknown, std::uint64_t step, const RationalPolynomial& value) const;
   RationalPolynomial over(const RationalPolynomial& number) const;  ///< divided by a number other than 0
+  /// The quotient, where it is a polynomial.
+  std::optional<RationalPolynomial> divided_by(const RationalPolynomial& divisor) const;
   /// The irreducible factors over the rationals that are no numbers, each once. Nothing where they are not found within 10 s
   /// of processor time, or before `ended` says so.
   std::optional<std::vector<RationalPolynomial>> factors(const Ended& ended = {}) const;

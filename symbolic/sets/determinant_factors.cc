@@ -6,6 +6,18 @@
 #include "corank/symbolic/velocity/exact_matrix.h"
 
 namespace corank::symbolic {
+namespace {
+
+// Among the first `known` of the list; else it is appended.
+std::size_t place_of(const Expression& e, std::size_t known, std::vector<Expression>& list) {
+  const auto begin = list.begin(), end = begin + static_cast<std::ptrdiff_t>(known);
+  const std::size_t place = std::find_if(begin, end, [&](const Expression& f) { return same_tree(e, f); }) - begin;
+  if (place < known) return place;
+  list.push_back(e);
+  return list.size() - 1;
+}
+
+}  // namespace
 
 std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended) {
   ExactMatrix m(mechanism, matrix, residuals(mechanism));
@@ -42,7 +54,15 @@ ExpressionMatrix locked_matrix(const Mechanism& mechanism, SingularitySet set) {
 std::array<std::vector<std::size_t>, 3> Loci::lists() const {
   std::vector<std::size_t> all(all_factors.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return {all, places[0], places[1]};
+  std::array<std::vector<std::size_t>, 3> result{all, places[0], places[1]};
+  for (std::vector<std::size_t>* list : {&result[1], &result[2]})
+    for (const std::size_t place : further)
+      if (std::find(list->begin(), list->end(), place) == list->end()) list->push_back(place);
+  return result;
+}
+
+void Loci::add(const std::vector<Expression>& functions) {
+  for (const Expression& e : functions) further.push_back(place_of(e, all_factors.size(), all_factors));
 }
 
 Loci singularity_loci(const Mechanism& mechanism, const Ended& ended) {
@@ -51,15 +71,7 @@ Loci singularity_loci(const Mechanism& mechanism, const Ended& ended) {
   for (std::size_t k = 0; k < 2; ++k) {
     loci.factors[k] = determinant_factors(mechanism, loci.matrices[k], ended);
     const std::size_t known = loci.all_factors.size();
-    for (const Expression& e : loci.factors[k]) {
-      const auto begin = loci.all_factors.begin(), end = begin + static_cast<std::ptrdiff_t>(known);
-      std::size_t place = std::find_if(begin, end, [&](const Expression& f) { return same_tree(e, f); }) - begin;
-      if (place == known) {
-        place = loci.all_factors.size();
-        loci.all_factors.push_back(e);
-      }
-      loci.places[k].push_back(place);
-    }
+    for (const Expression& e : loci.factors[k]) loci.places[k].push_back(place_of(e, known, loci.all_factors));
   }
   return loci;
 }

@@ -26,15 +26,18 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
 /// L_y of the forward set or L_z of the inverse one, as `corank derive` prints them.
 ExpressionMatrix locked_matrix(const Mechanism& mechanism, SingularitySet set);
 
-/// The loci that divide a C-space: where det L_y, and where det L_z, is 0.
+/// The loci that divide a C-space: where det L_y, and where det L_z, is 0; and further functions that do.
 struct Loci {
   std::array<ExpressionMatrix, 2> matrices;          ///< L_y, L_z
   std::array<std::vector<Expression>, 2> factors;    ///< of their determinants
-  std::vector<Expression> all_factors;               ///< of both, each once
+  std::vector<Expression> all_factors;               ///< of both, and further functions, each once
   std::array<std::vector<std::size_t>, 2> places{};  ///< of the factors of each among all
+  std::vector<std::size_t> further{};                ///< likewise
 
   /// Of the functions that divide C-space into aspects, assembly modes and working modes, the places among all factors.
   std::array<std::vector<std::size_t>, 3> lists() const;
+  /// These divide it as well (RequiredSpace::functions).
+  void add(const std::vector<Expression>& functions);
 };
 /// Throws as determinant_factors() does, and where the model has no inputs or outputs.
 Loci singularity_loci(const Mechanism& mechanism, const Ended& ended = {});

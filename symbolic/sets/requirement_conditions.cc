@@ -324,6 +324,18 @@ class RequirementTranslator::Translator {
   ExpressionMatrix velocity_;
 };
 
+VelocityCondition as_form(const RequirementLine& line, VelocityCondition c) {
+  if (!c.form.empty()) return c;
+  if (c.groups.size() != 1)
+    throw ModelError(line.where, "the requirement " + in_quotes(line.text) + " has " + counted(c.groups.size(), "load"),
+                     "one load, or corank map");
+  c.form.assign(c.kinds.size(), 0);
+  for (const int j : c.groups[0].columns) c.form[j] = -(c.groups[0].weight * c.groups[0].weight);
+  c.form.back() = c.bound * c.bound;
+  c.groups.clear();
+  return c;
+}
+
 RequirementTranslator::RequirementTranslator(const Mechanism& mechanism, const std::vector<std::string>& parameters)
     : translator_(std::make_unique<Translator>(mechanism, parameters)) {}
 RequirementTranslator::~RequirementTranslator() = default;

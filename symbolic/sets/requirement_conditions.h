@@ -24,6 +24,9 @@ struct VelocityCondition {
   Expression bound;
 };
 
+/// The same condition as a form on a line: of one load. Throws ModelError where there are several.
+VelocityCondition as_form(const RequirementLine& line, VelocityCondition condition);
+
 /// A requirement: conditions on velocities, or a function that is not to be positive.
 struct Conditions {
   std::vector<VelocityCondition> of_velocities;

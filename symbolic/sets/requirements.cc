@@ -23,7 +23,7 @@ class LimitMechanism {
     RequirementTranslator translator(mechanism_, {});
     for (const RequirementLine& line : mechanism_.requirements()) {
       const Conditions conditions = translator.run(line);
-      for (const VelocityCondition& c : conditions.of_velocities) add(line, c);
+      for (const VelocityCondition& c : conditions.of_velocities) add(line, as_form(line, c));
       if (conditions.excess)
         out_.velocity(times(*conditions.excess, rate(CoordinateKind::length)) == Expression(0), line.where);
     }
@@ -46,15 +46,6 @@ class LimitMechanism {
   }
 
   void add(const RequirementLine& line, const VelocityCondition& c) {
-    std::vector<Expression> form = c.form;
-    if (form.empty()) {
-      if (c.groups.size() != 1)
-        throw ModelError(line.where, "the requirement " + in_quotes(line.text) + " has " + counted(c.groups.size(), "load"),
-                         "one load, or corank map");
-      form.assign(c.kinds.size(), 0);
-      for (const int j : c.groups[0].columns) form[j] = -(c.groups[0].weight * c.groups[0].weight);
-      form.back() = c.bound * c.bound;
-    }
     std::vector<Expression> m, lambda;
     for (const CoordinateKind kind : c.kinds) m.push_back(rate(kind));
     for (std::size_t i = 0; i < c.rows.size(); ++i) lambda.push_back(rate(CoordinateKind::length));
@@ -66,7 +57,7 @@ class LimitMechanism {
       out_.velocity(*row == Expression(0), line.where);
     };
     for (std::size_t j = 0; j < m.size(); ++j) {
-      std::vector<Expression> entries{form[j]}, rates{m[j]};
+      std::vector<Expression> entries{c.form[j]}, rates{m[j]};
       for (std::size_t i = 0; i < lambda.size(); ++i) {
         entries.push_back(c.rows[i][j]);
         rates.push_back(lambda[i]);

@@ -225,6 +225,9 @@ bool ExactMatrix::eliminate_a_number() {
       if (rows_[i][j].is_number() && (row == size() || fill < least)) std::tie(least, row, column) = std::tuple(fill, i, j);
     }
   if (row == size()) return false;
+  const RationalPolynomial minus = RationalPolynomial::number(unknowns_->ring(), "-1"), number = rows_[row][column];
+  const RationalPolynomial signed_number = (row + column) % 2 == 0 ? number : minus * number;
+  eliminated_ = eliminated_ ? *eliminated_ * signed_number : signed_number;
   for (std::size_t i = 0; i < size(); ++i) {
     if (i == row || rows_[i][column].is_zero()) continue;
     const RationalPolynomial multiple = rows_[i][column].over(rows_[row][column]);
@@ -267,6 +270,14 @@ RationalPolynomial ExactMatrix::determinant(const SquareBlock& block) const {
   }
   const auto all = minors.find(static_cast<std::uint32_t>((std::uint64_t{1} << block.columns.size()) - 1));
   return all == minors.end() ? RationalPolynomial(ring) : all->second;
+}
+
+RationalPolynomial ExactMatrix::determinant() const {
+  SquareBlock all{std::vector<std::size_t>(size()), std::vector<std::size_t>(size())};
+  std::iota(all.rows.begin(), all.rows.end(), std::size_t{0});
+  all.columns = all.rows;
+  const RationalPolynomial rest = determinant(all);
+  return eliminated_ ? *eliminated_ * rest : rest;
 }
 
 RationalPolynomial ExactMatrix::without_squares(const RationalPolynomial& f, std::size_t gone, std::size_t kept) const {

@@ -55,6 +55,8 @@ class ExactMatrix {
   /// By Laplace's expansion along one row after the other; minors of the same columns are summed once. Throws
   /// DeterminantTooLarge above 16 rows, or above 20,000 terms.
   RationalPolynomial determinant(const SquareBlock& block) const;
+  /// Of the matrix as it was given, sign and number included. Throws likewise.
+  RationalPolynomial determinant() const;
   /// 0 where cos² + sin² = 1 of all angles shows it, else the same polynomial or one with fewer terms.
   RationalPolynomial modulo_circles(const RationalPolynomial& f) const;
 
@@ -88,6 +90,7 @@ class ExactMatrix {
   std::unique_ptr<Unknowns> unknowns_;
   std::vector<std::vector<RationalPolynomial>> rows_;
   std::vector<std::string> columns_;
+  std::optional<RationalPolynomial> eliminated_;  // by what the determinant has been divided; none: 1
   std::size_t equations_ = 0;
   std::vector<Explicit> explicit_;  // each in unknowns that are none, or stand before it
 };

@@ -125,6 +125,57 @@ TEST(ToleratedClearance, OfARobotFromPartsHoldsForEachRobot) {
   }
 }
 
+// For each of 10,000 robots the three legs' lines neither meet in a point nor are parallel anywhere in the ball: their
+// moments about a point and directions are independent, with one sign of the determinant.
+TEST(ToleratedClearance, OfAPlanarPlatformIsFreeOfEveryRobotsSingularities) {
+  const double tolerance = 0.01;
+  Overrides overrides;
+  const std::array<std::pair<const char*, double>, 6> constants{
+      {{"bx", 2}, {"cx", 0.8}, {"cy", 1.5}, {"px", 1}, {"qx", 0.6}, {"qy", 0.4}}};
+  for (const auto& [name, value] : constants)
+    overrides.push_back({name, std::to_string(value) + " ± " + std::to_string(tolerance)});
+  const BallOptions ball{.at = {{"pose_x", "4/5"}, {"pose_y", "1/2"}, {"pose_phi", "1/10"}}, .in = {"pose_x", "pose_y"}};
+  const Clearance c = clearance_for_all(robot("planar/3rpr.cuik", overrides), ball, 0.005);
+  ASSERT_TRUE(c.nearest.complete && c.nearest.upper);
+  const auto determinant = [](const std::array<double, 6>& l, double x, double y) {
+    const auto [bx, cx, cy, px, qx, qy] = l;
+    const double s = std::sin(0.1), cosine = std::cos(0.1);
+    const std::array<test::Point, 3> ground{{{0, 0}, {bx, 0}, {cx, cy}}}, own{{{0, 0}, {px, 0}, {qx, qy}}};
+    std::array<std::array<double, 3>, 3> rows{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double u = cosine * own[i].x - s * own[i].y, v = s * own[i].x + cosine * own[i].y;
+      const double ex = x + u - ground[i].x, ey = y + v - ground[i].y;
+      rows[i] = {ex, ey, u * ey - v * ex};
+    }
+    const auto& [a, b, d] = rows;
+    return a[0] * (b[1] * d[2] - b[2] * d[1]) - a[1] * (b[0] * d[2] - b[2] * d[0]) + a[2] * (b[0] * d[1] - b[1] * d[0]);
+  };
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> change(-tolerance, tolerance);
+  int changed = 0, beyond = 0;
+  const double inside = c.nearest.lower * (1 - 1e-9), outside = *c.nearest.upper * 1.02;
+  for (int k = 0; k < 10'000; ++k) {
+    std::array<double, 6> l{};
+    for (std::size_t i = 0; i < l.size(); ++i) {
+      const double by = change(random);
+      l[i] = constants[i].second + (k % 2 == 0 ? std::copysign(tolerance, by) : by);
+    }
+    const double at_centre = determinant(l, 0.8, 0.5);
+    const auto differs = [&](double radius, double angle) {
+      return determinant(l, 0.8 + radius * std::cos(angle), 0.5 + radius * std::sin(angle)) * at_centre <= 0;
+    };
+    bool farther = false;
+    for (int a = 0; a < 90; ++a) {
+      const double angle = 2 * M_PI * (a + 0.5) / 90;
+      changed += differs(inside, angle) + differs(inside * std::sqrt((a + 0.5) / 90), 7 * angle);
+      farther = farther || differs(outside, angle);
+    }
+    beyond += farther;
+  }
+  EXPECT_EQ(changed, 0);
+  EXPECT_GT(beyond, 0) << "the worst robots have a singularity just outside";
+}
+
 // The clearance at the factor is the radius, from both sides.
 TEST(ToleranceFactor, IsWhereTheWorstRobotJustKeepsTheRadius) {
   for (const double radius : {0.15, 0.159}) {

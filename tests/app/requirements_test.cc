@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "corank/tests/app/program.h"
 #include "corank/tests/seeds.h"
@@ -12,6 +13,7 @@ namespace corank::app {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const char* const kRequired = "amplification(outputs) <= 2";
@@ -59,6 +61,21 @@ TEST(RequirementCommands, AreOnAPage) {
   EXPECT_TRUE(std::filesystem::exists(folder.file("page/requirements.h5")));
 }
 
+// The band of all robots, and the curve of the one as drawn.
+TEST(ToleranceCommands, DrawTheRobotAsDrawnBesideAllRobots) {
+  const TemporaryFolder folder;
+  const auto run = run_corank(
+      {"report", model("dextar"), "--sets", "forward", "-D", "l=0.9±0.01", "--sigma", "0.05", "-o", folder.file("page")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  std::ifstream stream(folder.file("page/figures/output-portrait.svg"));
+  const std::string picture{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(picture, HasSubstr("forward singularities (every robot)"));
+  EXPECT_THAT(picture, HasSubstr("forward singularities (as drawn)"));
+  const auto curve = run_corank({"verify", folder.file("page/forward-as-drawn.h5")});
+  EXPECT_THAT(curve.out, Not(HasSubstr("every robot"))) << "it is one robot's";
+  EXPECT_THAT(curve.out, HasSubstr("verified"));
+}
+
 TEST(RequirementCommands, BoundHowFarThatIs) {
   const TemporaryFolder folder;
   const auto run = run_corank({"clearance", model("dextar"), "--require", kRequired, "--at", "J3x=0.59,J3y=0.55", "--in",
@@ -98,6 +115,22 @@ TEST(RequirementCommands, FindPathsThatKeepFromThere) {
   EXPECT_THAT(near.out, HasSubstr("met all along the path, proven"));
   // There the end is faster in that posture.
   EXPECT_THAT(path("0.75", "3").out, HasSubstr("separated: it is proven that no such path exists"));
+}
+
+// Two curves, each without x_C <= 1/10 an arc that y_B = 0 divides.
+TEST(RequirementCommands, DivideAspects) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("a.h5");
+  const auto run = run_corank({"aspects", model("three_slider"), "--require", "x_C >= 1/10", "-o", file});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, StartsWith("three_slider\n  aspects         4\n  assembly modes  4\n  working modes   2\n"
+                                  "  required        x_C >= 1/10\n"));
+  expect_verified(file);
+  const auto json = run_corank({"aspects", model("three_slider"), "--require", "x_C >= 1/10", "--json"});
+  EXPECT_THAT(json.out, HasSubstr("\"require\": [\n    \"x_C >= 1/10\"\n  ]"));
+  const auto cusps = run_corank({"aspects", model("dextar"), "--require", kRequired, "--cusps"});
+  EXPECT_EQ(cusps.status, 1);
+  EXPECT_THAT(cusps.err, HasSubstr("cusps are asked for, and requirements are there"));
 }
 
 // D. Chablat, P. Wenger, "Architecture optimization of a 3-DOF translational parallel mechanism for machining applications,

@@ -31,6 +31,13 @@ def test_its_aspects_are_checked_by_other_code(three_slider, tmp_path):
         three_slider.aspects().verify()
 
 
+def test_its_aspects_end_where_requirements_do(three_slider):
+    a = three_slider.with_requirements("x_C >= 1/10").aspects(certificate=True)
+    assert a.aspects == (4, 4) and a.assembly_modes == (4, 4) and a.working_modes == (2, 2)
+    assert a.require == ["x_C >= 1/10"] and all(values["x_C"].lo >= 0.1 for values, _ in a.representatives)
+    assert a.verify().complete and three_slider.aspects().require == []
+
+
 def test_an_arm_changes_its_posture_about_its_cusps(models):
     arm = corank.load(models / "serial" / "orthogonal_3r_section.cuik")
     assert arm.aspects().cusps is None

@@ -1,4 +1,4 @@
-#include "corank/analyze/paths/standing.h"
+#include "corank/analyze/sets/standing.h"
 
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/requirement.h"
