@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "corank/result/values/summary.h"
+#include "corank/result/values/words.h"
 
 namespace corank::study {
 namespace {
@@ -72,8 +73,7 @@ std::string to_table(const solve::CostEstimate& cost, int threads) {
       fmt::format("estimate by a trial of {:.1f} s, for {}\n\n", cost.trial_seconds, result::sigma_text(cost.sigma));
   text += "boxes to process    " + count_text(cost.processed) + "\n";
   text += "boxes returned      " + count_text(cost.boxes) + "\n";
-  text +=
-      fmt::format("time                {}, with {} thread{}\n", time_text(cost.seconds), threads, threads == 1 ? "" : "s");
+  text += fmt::format("time                {}, with {}\n", time_text(cost.seconds), result::counted(threads, "thread"));
   text += "memory              " + bytes_text(cost.memory) + "\n";
   text += "result file         " + bytes_text(cost.file) + "\n\n";
   if (cost.whole_tree) {

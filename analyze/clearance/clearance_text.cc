@@ -9,6 +9,7 @@
 #include "corank/analyze/clearance/clearance.h"
 #include "corank/analyze/clearance/json.h"
 #include "corank/analyze/clearance/tolerance_factor.h"
+#include "corank/result/values/words.h"
 
 namespace corank::analyze {
 namespace {
@@ -73,7 +74,7 @@ std::string to_table(const Clearance& c) {
         c.postures.size(), std::ranges::count(c.postures, Standing::satisfied),
         std::ranges::count(c.postures, Standing::violated));
   if (const auto toleranced = c.ball.question.model.toleranced(); !toleranced.empty())
-    text += fmt::format("for every robot within the tolerance{} of {}\n", toleranced.size() == 1 ? "" : "s",
+    text += fmt::format("for every robot within the {} of {}\n", result::noun(toleranced.size(), "tolerance"),
                         fmt::join(toleranced, ", "));
   if (n.empty) {
     text += fmt::format("it is proven that there is no {} in the ranges", what);

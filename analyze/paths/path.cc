@@ -14,6 +14,7 @@
 #include "corank/analyze/sets/standing.h"
 #include "corank/certify/meeting.h"
 #include "corank/core/rounding.h"
+#include "corank/result/values/words.h"
 #include "corank/solve/exactness/exactness.h"
 #include "corank/solve/search/solve.h"
 #include "corank/symbolic/algebra/exact_value.h"
@@ -349,9 +350,8 @@ Box PathFinder::end(const std::vector<NamedValue>& values, int mode, const std::
   if (found.empty()) throw EndError(option + ": there is no configuration with these values");
   if (mode == 0 && found.size() == 1) return found.front();
   if (mode >= 1 && mode <= static_cast<int>(found.size())) return found[mode - 1];
-  std::string text =
-      fmt::format("{}: {} configuration{} {} these values; choose with {}-mode or by more coordinates:", option,
-                  found.size(), found.size() == 1 ? "" : "s", found.size() == 1 ? "has" : "have", option);
+  std::string text = fmt::format("{}: {} {} these values; choose with {}-mode or by more coordinates:", option,
+                                 result::counted(found.size(), "configuration"), found.size() == 1 ? "has" : "have", option);
   for (std::size_t k = 0; k < found.size(); ++k) {
     text += fmt::format("\n  {}:", k + 1);
     for (const CoordinateValue& c : coordinate_values(system(), found[k]))

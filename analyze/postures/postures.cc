@@ -14,6 +14,7 @@
 #include "corank/kinematics/equations/six_joints.h"
 #include "corank/solve/search/solve.h"
 #include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/limits.h"
@@ -203,8 +204,8 @@ PostureFinder::PostureFinder(PostureQuestion question) {
               static_cast<int>(std::ranges::count_if(model.coordinates(), symbolic::is_fixed)) -
               static_cast<int>(p.question.given.size()) - (p.question.orientation ? 3 : 0);
   if (p.freedom > 0)
-    throw p.error(fmt::format("these values leave {} degree{} of freedom", p.freedom, p.freedom == 1 ? "" : "s"),
-                  fmt::format("values of {} more coordinate{}", p.freedom, p.freedom == 1 ? "" : "s"));
+    throw p.error(fmt::format("these values leave {} of freedom", symbolic::counted(p.freedom, "degree")),
+                  fmt::format("values of {}", symbolic::counted(p.freedom, "more coordinate")));
   if (p.question.orientation) {
     p.find_hand();
     p.find_position();

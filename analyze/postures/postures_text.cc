@@ -7,6 +7,7 @@
 
 #include "corank/analyze/clearance/json.h"
 #include "corank/analyze/postures/posture_table.h"
+#include "corank/result/values/words.h"
 
 namespace corank::analyze {
 namespace {
@@ -68,10 +69,10 @@ std::string to_table(const PostureFinder& finder, const Postures& postures) {
   const auto most = postures.at_most();
   std::string text = finder.question().question.model.name() + ": ";
   if (most == least)
-    text += fmt::format("{} posture{}, proven to be all\n", least, least == 1 ? "" : "s");
+    text += fmt::format("{}, proven to be all\n", result::counted(least, "posture"));
   else
-    text += fmt::format("at least {} posture{}{}\n", least, least == 1 ? "" : "s",
-                        most ? fmt::format(", at most {}", *most) : "");
+    text +=
+        fmt::format("at least {}{}\n", result::counted(least, "posture"), most ? fmt::format(", at most {}", *most) : "");
   std::vector<std::vector<std::string>> rows;
   const std::vector<std::string> names = finder.names();
   std::vector<std::string> head{""};
@@ -139,8 +140,8 @@ std::string to_json(const PostureFinder& finder, const std::vector<Postures>& po
 }
 
 std::string to_table(const PostureFinder& finder, const std::vector<Postures>& postures, const Comparison* comparison) {
-  std::string text = fmt::format("{}: {} pose{}\n", finder.question().question.model.name(), postures.size(),
-                                 postures.size() == 1 ? "" : "s");
+  std::string text =
+      fmt::format("{}: {}\n", finder.question().question.model.name(), result::counted(postures.size(), "pose"));
   std::map<int, std::size_t> exactly;
   std::size_t open = 0;
   for (const Postures& p : postures) {
@@ -151,10 +152,9 @@ std::string to_table(const PostureFinder& finder, const std::vector<Postures>& p
       ++open;
   }
   for (const auto& [count, poses] : exactly)
-    text += fmt::format("  {:>2} posture{:<2} {} pose{}, proven to be all\n", count, count == 1 ? "" : "s", poses,
-                        poses == 1 ? "" : "s");
-  if (open > 0)
-    text += fmt::format("  not known    {} pose{}: bounds only, or sets of postures\n", open, open == 1 ? "" : "s");
+    text += fmt::format("  {:>2} {:<9} {}, proven to be all\n", count, result::noun(count, "posture"),
+                        result::counted(poses, "pose"));
+  if (open > 0) text += fmt::format("  not known    {}: bounds only, or sets of postures\n", result::counted(open, "pose"));
   if (!comparison) return text;
   text += "compared with the others:\n";
   text += fmt::format("  {:<9}{}\n", "agreed", comparison->agreed);

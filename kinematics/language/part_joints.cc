@@ -136,8 +136,7 @@ void PartBuilder::set_ranges(Joint& joint) {
                      draft.described() + " has reference directions", "none: the joint has no angle of its own");
   if (n > 0 && n != 2)
     throw ModelError(draft.zeros.empty() ? draft.references.back().where : draft.zero_where,
-                     draft.described() + " has " + std::to_string(n) + (n == 1 ? " reference" : " references"),
-                     "one for each end");
+                     draft.described() + " has " + symbolic::counted(n, "reference"), "one for each end");
   if (is_size && !draft.brackets.empty() && n == 0)
     throw ModelError(draft.brackets[0].where, "the half angle of " + draft.described() + " has no directions after it",
                      "range [half angle] R R: a direction in each link, the angle between which is limited");

@@ -273,6 +273,8 @@ class ParameterMap:
         count: str,
         resolution: int,
         boundary: bool,
+        orientation: Optional[str],
+        orientation_of: str,
     ) -> None: ...
     def run(
         self, threads: int, certificate: bool, time_limit: float, progress: Any

@@ -139,10 +139,10 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   const std::size_t regular = count(Verdict::regular), boundary = count(Verdict::boundary);
   if (regular > 0)
     words.proven.push_back(fmt::format(
-        "In {} of {} boxes ({}) the {} is one smooth piece: for every value of {} free coordinate{} there is "
+        "In {} of {} boxes ({}) the {} is one smooth piece: for every value of {} there is "
         "exactly one solution.",
         grouped(regular), grouped(cover.boxes.size()), percentage(regular, cover.boxes.size()),
-        result.parts.size() > 1 ? "part that it is of" : "set", cover.dimension, cover.dimension == 1 ? "" : "s"));
+        result.parts.size() > 1 ? "part that it is of" : "set", result::counted(cover.dimension, "free coordinate")));
   if (boundary > 0)
     words.proven.push_back(
         fmt::format("In {} the same is proven for a piece that may reach beyond the search domain.", boxes_text(boundary)));
@@ -261,8 +261,8 @@ SetWords set_words(const result::Result& result, const Components& found, bool g
   if (const std::size_t in_one = boxes_in_one(result, found); in_one > 1)
     words.meaning += fmt::format("; drawn here: hulls of up to {} neighbouring boxes with the same verdict", in_one);
   if (const auto parameters = result::parameters_of(result); !parameters.empty())
-    words.proven.push_back(fmt::format("All of this holds for every robot within the tolerance{} of {}.",
-                                       parameters.size() == 1 ? "" : "s",
+    words.proven.push_back(fmt::format("All of this holds for every robot within the {} of {}.",
+                                       result::noun(parameters.size(), "tolerance"),
                                        joined(parameters, [](const auto* v) { return v->name; })));
   if (cover.boxes.empty()) {
     say_none(result, given_velocity_equation && called.given_none ? called.given_none : called.none, words);

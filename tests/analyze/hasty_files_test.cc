@@ -33,13 +33,13 @@ void expect_the_same_in_haste(const std::string& name, const File& file,
   write(calm, file, [&] { return ++questions < 0; });
   ASSERT_GT(questions, 1) << "it never asks whether there is haste";
   std::uintmax_t plain = 0;
-  for (const int from : {1, questions / 2, questions}) {
+  for (const int from : {1, questions / 4, questions}) {
     int asked = 0;
     write(hasty, file, [&] { return ++asked >= from; });
     EXPECT_EQ(asked, questions);
     const std::uintmax_t size = std::filesystem::file_size(hasty);
     if (from == 1) plain = size;
-    if (from == questions / 2) {
+    if (from == questions / 4) {
       EXPECT_GT(size, std::filesystem::file_size(calm));
       EXPECT_LT(size, plain);
     }
