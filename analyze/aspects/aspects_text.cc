@@ -118,8 +118,9 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
       if (std::ranges::find(file.lists[k].factors, f) == file.lists[k].factors.end()) file.lists[k].factors.push_back(f);
   const std::array<const Pieces*, 3> lists{&a.aspects, &a.assembly_modes, &a.working_modes};
   for (std::size_t k = 0; k < lists.size(); ++k) add_claims(file.lists[k], *lists[k]);
-  for (std::size_t i = 0; i < a.determinant_signs.size() && i < file.lists[0].members.size(); ++i)
-    file.lists[0].members[i].determinant_signs = a.determinant_signs[i];
+  const auto kept = std::min({a.determinant_signs.size(), file.lists[0].members.size(),
+                              static_cast<std::size_t>(std::max(0, a.aspects.at_least))});  // then come those beside
+  for (std::size_t i = 0; i < kept; ++i) file.lists[0].members[i].determinant_signs = a.determinant_signs[i];
   return file;
 }
 

@@ -52,6 +52,7 @@ class PieceCounter {
     Kind kind;
     bool holds_solution;  // proven
     std::optional<Box> solution{};
+    std::vector<int> held{};  ///< the variables over whose values that is a solution
   };
 
   const SignCell& cell_of(std::size_t part) const { return cells_.cells()[parts_[part].cell]; }
@@ -105,7 +106,7 @@ class PieceCounter {
       CellPart& p = parts_[part->second];
       const bool inside = is_in(point, c);
       if (inside) p.holds_solution = true;
-      if (inside && !p.solution) p.solution = point;
+      if (inside && !p.solution) p.solution = point, p.held = held;
       if (p.kind != Kind::connected) return;
       if (!inside) {
         near.push_back(part->second);
@@ -389,7 +390,7 @@ class PieceCounter {
       const std::optional<Box> point =
           cell.mixed.empty() ? cells_.solution_over_middle(cell, cell.sides) : parts_[p].solution;
       result.representatives.push_back(point.value_or(cell.sides));
-      result.free.push_back(cell.free);
+      result.free.push_back(cell.mixed.empty() || !parts_[p].solution ? cell.free : parts_[p].held);
       result.signs.emplace_back(parts_[p].signs.begin(), parts_[p].signs.end() - cells_.limits());
     }
   }

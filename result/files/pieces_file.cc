@@ -284,6 +284,7 @@ std::string open_lines(const check::PiecesReport& report) {
 
 std::string to_table(const check::PiecesReport& report, const PiecesFile& file) {
   std::string text = printable_line(file.model) + ": the pieces of C-space\n";
+  for (const std::string& r : model_of(file).requirement_texts()) text += fmt::format("  where           {}\n", r);
   for (std::size_t k = 0; k < report.lists.size(); ++k) {
     const check::PieceReport& r = report.lists[k];
     text += fmt::format("  {:<14}  claimed: {}; confirmed: {}, {} members with their signs, on {} cells", kLists[k],
@@ -300,7 +301,8 @@ std::string to_json(const check::PiecesReport& report, const PiecesFile& file) {
   nlohmann::ordered_json json{{"verified", report.verified()},
                               {"complete", report.complete()},
                               {"covers_cspace", report.covered()},
-                              {"interrupted", report.interrupted}};
+                              {"interrupted", report.interrupted},
+                              {"require", model_of(file).requirement_texts()}};
   for (std::size_t k = 0; k < report.lists.size(); ++k) {
     const check::PieceReport& r = report.lists[k];
     const PieceClaims all = claimed(file, k);

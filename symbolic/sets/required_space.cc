@@ -47,16 +47,17 @@ class Builder {
     matrix.eliminate_numbers();
     RationalPolynomial g = matrix.modulo_circles(matrix.determinant());
     if (matrix.is_explicit()) g = matrix.in_free_coordinates(g, ended_);
-    if (g.is_zero())
-      throw ModelError(line.where, "the requirement " + in_quotes(line.text) + " is at its limit at all configurations",
-                       "one that is met at some of them");
+    if (g.is_zero()) throw at_limit(line);
     std::vector<Expression> odd;
     for (const RationalPolynomial& factor : g.factors(ended_).value_or(std::vector<RationalPolynomial>{})) {
       const RationalPolynomial square = factor.power(2);
       for (auto rest = g.divided_by(square); rest; rest = g.divided_by(square)) g = *rest;
       const bool even = !g.divided_by(factor);
       std::optional<Expression> function = matrix.condition(factor);
-      if (!function) continue;
+      if (!function) {  // of constants, whose values may make it 0
+        if (exact_value(mechanism_, matrix.expression(factor), line.text).sign().value_or(0) == 0) throw at_limit(line);
+        continue;
+      }
       if (even)
         add_function(*function);
       else
@@ -68,9 +69,16 @@ class Builder {
     }
     const Expression b = c.rows.size() % 2 == 0 ? matrix.expression(g) : -matrix.expression(g);
     if (matrix.condition(g)) return add(line, b);
-    if (exact_value(mechanism_, b, line.text).sign() != 1)
+    const int sign = exact_value(mechanism_, b, line.text).sign().value_or(0);
+    if (sign == 0) throw at_limit(line);
+    if (sign < 0)
       throw ModelError(line.where, "the requirement " + in_quotes(line.text) + " is met at no configuration",
                        "one that is met at some of them");
+  }
+
+  static ModelError at_limit(const RequirementLine& line) {
+    return {line.where, "the requirement " + in_quotes(line.text) + " is at its limit at all configurations",
+            "one that is met at some of them"};
   }
 
   void add_function(const Expression& function) {

@@ -260,5 +260,29 @@ TEST(RequiredAspects, InADamagedFileAreRefused) {
   EXPECT_FALSE(result::verify(none).covered());
 }
 
+// A member's solution was found over the free variables of a neighbour's cell.
+TEST(RequiredAspects, HaveFilesWhoseMembersLieInTheirBoxes) {
+  const auto parse = [](const std::string& text) { return symbolic::parse_model(text, "circle.cuik"); };
+  expect_complete_file(
+      file_of(parse("[SYSTEM VARS]\nx : [-1/2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n[INPUTS] x\n[OUTPUTS] y\n"),
+              {"amplification(outputs) <= 1"}),
+      4);
+  expect_complete_file(file_of(parse("[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\n"
+                                     "x = sin(v) + sin(w);\ny = sin(v) - sin(w);\n[INPUTS] v, w\n[OUTPUTS] x, y\n"),
+                               {"amplification(outputs) <= 1"}),
+                       16);
+}
+
+// Determinants have signs at members that meet what is required, not at those that follow.
+TEST(RequiredAspects, ClaimNoSignsOfDeterminantsBesides) {
+  const result::PiecesFile file =
+      file_of(symbolic::parse_model("[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-3, 3]\ny : [-3, 3]\n[SYSTEM EQS]\n"
+                                    "x = sin(v) + sin(w);\ny = sin(v) - sin(w);\n[INPUTS] v, w\n[OUTPUTS] x, y\n",
+                                    "waves.cuik"),
+              {"error(x) <= 4/5 under v <= 1, w <= 1", "error(y) <= 7/10 under inputs <= 1"});
+  for (const std::string& failure : result::verify(file).lists.at(0).failures)
+    EXPECT_THAT(failure, ::testing::Not(HasSubstr("determinant")));
+}
+
 }  // namespace
 }  // namespace corank::analyze

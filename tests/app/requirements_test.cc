@@ -126,6 +126,7 @@ TEST(RequirementCommands, DivideAspects) {
   EXPECT_THAT(run.out, StartsWith("three_slider\n  aspects         4\n  assembly modes  4\n  working modes   2\n"
                                   "  required        x_C >= 1/10\n"));
   expect_verified(file);
+  EXPECT_THAT(run_corank({"verify", file}).out, HasSubstr("\n  where           x_C >= 1/10\n"));
   const auto said = run_corank({"aspects", model("three_slider"), "--require", "x_C >= 1/10", "--json"});
   EXPECT_THAT(said.out, HasSubstr("\"require\": [\n    \"x_C >= 1/10\"\n  ]"));
   const auto cusps = run_corank({"aspects", model("dextar"), "--require", kRequired, "--cusps"});

@@ -59,6 +59,18 @@ TEST(RequiredSpace, OfAConstantIsNoConditionOrAnError) {
   EXPECT_EQ(lever("x <= 1").inequalities.size(), 1u);
 }
 
+// The same lever beside another coordinate: one factor is 0 by the values of constants.
+TEST(RequiredSpace, AtItsLimitByConstantsIsAnError) {
+  for (const std::string k : {"2", "sqrt(2)", "2*cos(pi/4)"}) {
+    Mechanism model = parse_model("[CONSTANTS]\nk := " + k +
+                                      "\n[SYSTEM VARS]\nx : [-2, 2]\nu : [-2, 2]\ny : [-4, 4]\nz : [-9, 9]\n"
+                                      "[SYSTEM EQS]\ny = k*x;\nz = u^2;\n[INPUTS] x, u\n[OUTPUTS] y, z\n",
+                                  "lever.cuik");
+    model.require("amplification(outputs) <= " + k);
+    EXPECT_THROW(required_space(model), ModelError) << k;
+  }
+}
+
 TEST(RequiredSpace, OfIndependentConditionsHasThemAsFunctions) {
   Mechanism model = parse_model(
       "[SYSTEM VARS]\nv ~ [-pi, pi]\nw ~ [-pi, pi]\nx : [-2, 2]\ny : [-2, 2]\n[SYSTEM EQS]\nx = sin(v);\ny = sin(w);\n"
