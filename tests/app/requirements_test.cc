@@ -69,8 +69,8 @@ TEST(ToleranceCommands, DrawTheRobotAsDrawnBesideAllRobots) {
   EXPECT_EQ(run.status, 0) << run.err;
   std::ifstream stream(folder.file("page/figures/output-portrait.svg"));
   const std::string picture{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_THAT(picture, HasSubstr("forward singularities (every robot)"));
-  EXPECT_THAT(picture, HasSubstr("forward singularities (as drawn)"));
+  EXPECT_THAT(picture, HasSubstr("forward locus (every robot)"));
+  EXPECT_THAT(picture, HasSubstr("forward locus (as drawn)"));
   const auto curve = run_corank({"verify", folder.file("page/forward-as-drawn.h5")});
   EXPECT_THAT(curve.out, Not(HasSubstr("every robot"))) << "it is one robot's";
   EXPECT_THAT(curve.out, HasSubstr("verified"));
