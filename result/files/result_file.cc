@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kFormat = "corank result";
 constexpr const char* kAssembly = "/assembly";
+constexpr int kOldest = 3;  // with one sigma, without reasons, larger kernels and their scales
 constexpr int kMostCorank = 1000, kMostParts = 1000, kMostOfCounted = 1'000'000'000, kMostThreads = 1'000'000;
 
 const EnumWords kReasonWords = words_of<Reason>(kReasons), kPassageWords = words_of<Passage>(kPassages);
@@ -71,7 +72,7 @@ constexpr auto kStatistics = [](const auto& field, auto& statistics) {
   field("seconds_certify", statistics.seconds_certify);
 };
 
-// --- writing and reading ---
+// --- writing and reading; `oldest`: a file of that version ---
 
 void store_texts_if_any(Hdf5Writer& file, const char* name, const std::vector<std::string>& texts) {
   if (!texts.empty()) StoredPart(file).texts(name, texts);
@@ -81,20 +82,22 @@ void store_texts_if_any(Hdf5Reader& file, const char* name, std::vector<std::str
 }
 
 template <class File, class Data>
-void store_sigma(const StoredPart<File>& file, Data& sigma) {
-  file("sigma_length", sigma.length);
-  file("sigma_angle", sigma.angle);
+void store_sigma(const StoredPart<File>& file, Data& sigma, bool oldest) {
+  file(oldest ? "sigma" : "sigma_length", sigma.length);
+  file(oldest ? "sigma" : "sigma_angle", sigma.angle);
 }
 
 template <class File, class Data>
-void store_options(File& to, Data& options) {
+void store_options(File& to, Data& options, bool oldest) {
   const StoredPart file(to, "/options");
   file.list("/options/constants/", options.constants, kConstant);
   store_texts_if_any(to, "/options/outputs", options.outputs);
-  store_sigma(file, options.sigma);
-  file("corank", options.corank, 1, kMostCorank);
-  file("passive_rates_eliminated", options.passive_rates_eliminated);
-  file.texts("/options/kernel_scales", options.kernel_scales);
+  store_sigma(file, options.sigma, oldest);
+  if (!oldest) {
+    file("corank", options.corank, 1, kMostCorank);
+    file("passive_rates_eliminated", options.passive_rates_eliminated);
+    file.texts("/options/kernel_scales", options.kernel_scales);
+  }
   file("kernel", options.kernel);
   file.check(options.kernel.empty() || options.kernel == "right" || options.kernel == "left",
              "the attribute kernel of /options is neither right nor left: '" + options.kernel + "'");
@@ -107,9 +110,9 @@ void store_options(File& to, Data& options) {
 
 // What a part has of its own, and a result without parts, but for its boxes.
 template <class File, class Data>
-void store_description(File& to, Data& result) {
+void store_description(File& to, Data& result, bool oldest = false) {
   const StoredPart file(to);
-  store_sigma(file, result.cover.sigma);
+  store_sigma(file, result.cover.sigma, oldest);
   file("dimension", result.cover.dimension, 0, kMostOfCounted);
   file("tolerance", result.cover.tolerance);
   file("configuration_size", result.configuration_size, 0, kMostOfCounted);
@@ -118,16 +121,17 @@ void store_description(File& to, Data& result) {
   file.text("/model/system", result.system_text);
   file.list("/variables/", result.variables, kVariableFields);
   file.list("/angles/", result.angles, kAngleFields);
-  store_options(to, result.options);
+  store_options(to, result.options, oldest);
   store_texts_if_any(to, "/outputs", result.outputs);
   store_texts_if_any(to, "/free_coordinates", result.free_coordinates);
 }
 
 // Of boxes that have sides, verdicts and free variables.
 template <class File, class Data>
-void store_of_boxes(File& to, const std::string& group, Data& boxes, std::size_t outputs, bool of_parts) {
+void store_of_boxes(File& to, const std::string& group, Data& boxes, std::size_t outputs, bool of_parts,
+                    bool oldest = false) {
   const StoredPart file(to);
-  file.further(group + "/", boxes, kReasonField);
+  if (!oldest) file.further(group + "/", boxes, kReasonField);
   if (outputs > 0) file.further(group + "/", boxes, passage_fields(outputs));
   if (of_parts) file.further(group + "/", boxes, kPartField);
 }
@@ -180,9 +184,10 @@ class ResultReader {
   explicit ResultReader(Hdf5Reader file, Reading reading = {}) : file_(std::move(file)), reading_(std::move(reading)) {
     if (!file_.has_attribute("/", "format") || file_.attribute<std::string>("/", "format") != kFormat)
       file_.fail("this is not a corank result");
-    const auto version = file_.attribute<std::int64_t>("/", "format_version");
-    if (version != kFormatVersion)
-      file_.fail(fmt::format("format version {}; this corank reads version {}", version, kFormatVersion));
+    format_ = file_.attribute<std::int64_t>("/", "format_version");
+    if (format_ < kOldest || format_ > kFormatVersion)
+      file_.fail("format version " + std::to_string(format_) + "; this corank reads versions " + std::to_string(kOldest) +
+                 " to " + std::to_string(kFormatVersion));
   }
 
   Result read() {
@@ -223,7 +228,7 @@ class ResultReader {
     result.model = whole ? whole->model : word("model");
     result.set = whole ? whole->set : word("set");
     result.model_text = whole ? whole->model_text : file_.text("/model/text");
-    store_description(file_, result);
+    store_description(file_, result, format_ == kOldest);
     const std::size_t n = result.variables.size();
     for (const Angle& a : result.angles)
       if (std::min(a.cosine, a.sine) < 0 || std::max(a.cosine, a.sine) >= static_cast<int>(n))
@@ -237,7 +242,8 @@ class ResultReader {
     if (file_.has_attribute("/", "stopped")) result.stopped = file_.attribute<std::string>("/", "stopped");
     for (const auto& [group, boxes] : {std::pair("/boxes", &cover.boxes), {"/points", &cover.points}}) {
       *boxes = read_boxes(file_, group, n, reading_.sides ? &sides_ : nullptr, reading_.free);
-      store_of_boxes(file_, group, *boxes, result.outputs.size(), file_.has(std::string(group) + "/part"));
+      store_of_boxes(file_, group, *boxes, result.outputs.size(), file_.has(std::string(group) + "/part"),
+                     format_ == kOldest);
     }
     kStatistics(StoredPart(file_, "/statistics"), cover.statistics);
     if ((file_.attribute<std::int64_t>("/", "complete") != 0) != cover.complete())
@@ -284,6 +290,7 @@ class ResultReader {
   Hdf5Reader file_;
   Reading reading_;
   std::vector<int> sides_;
+  std::int64_t format_ = kFormatVersion;
 };
 
 }  // namespace

@@ -29,7 +29,8 @@
 
 namespace corank::result {
 
-/// The layout that write_result writes and read_result reads.
+/// The layout that write_result writes; read_result reads this one and version 3, which had one sigma for all variables,
+/// kernel vectors of unscaled norm and no reasons.
 inline constexpr int kFormatVersion = 4;
 
 /// Throws ResultFileError where no file can be written at `path` (result/files/output_file.h): to be asked before a long
