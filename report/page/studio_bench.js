@@ -139,6 +139,12 @@ export class Bench {
     else delete this.warning.dataset.kind;
   }
 
+  hold(dragging) {
+    this.begin();
+    this.say([]);
+    this.dragging = dragging;
+  }
+
   begin() {
     this.panel.player.stop();
     this.panel.player.offer(null);
@@ -159,8 +165,8 @@ export class Bench {
     this.panel.showState();
   }
 
-  // The configurations of C-space in which the outputs (or the picture's coordinates, where there are none) are as they are now: one
-  // for each that Newton's method finds from a group of boxes over this place of the picture.
+  // The configurations of C-space whose outputs are as they are now; without outputs, whose coordinates in the picture are. One for
+  // each that Newton's method finds from the boxes over this place of the picture.
   modesAt(picture) {
     const {cspace, model, x} = this;
     const outputs = model.coordinates.filter(({role}) => role === "output"),
@@ -173,7 +179,8 @@ export class Bench {
         const from = Float64Array.from({length: set.configuration}, (_, j) => set.middle(box, j));
         const point = this.motion.move(from, target, this.panel.picture.typicalLength);
         if (point.residual > 1e-9 || !(point.distance < 1e-9) || modes.some((mode) => gap(mode.point.x, point.x) < same)) continue;
-        modes.push({set, box: boxAt(set, point.x).box, point: {...point, box: boxAt(set, point.x).box, moved: true}});
+        const at = boxAt(set, point.x).box;
+        modes.push({set, box: at, point: {...point, box: at, moved: true}});
       }
     }
     return modes;
@@ -204,9 +211,7 @@ export class Bench {
         event.preventDefault();
         event.stopPropagation();
         root.setPointerCapture(event.pointerId);
-        this.begin();
-        this.say([]);
-        this.dragging = found;
+        this.hold(found);
       },
       true,
     );
@@ -236,9 +241,7 @@ export class Bench {
         [u, v] = here();
       if (Math.hypot((x - u) * plane.sx, (y - v) * plane.sy) > hold) return;
       frame.setPointerCapture(event.pointerId);
-      this.begin();
-      this.say([]);
-      this.dragging = {portrait};
+      this.hold({portrait});
     });
     frame.addEventListener("pointermove", (event) => {
       if (this.dragging?.portrait !== portrait) return;
