@@ -90,7 +90,7 @@ int SignCellTest::connected(const SheetCell& cell, int function, int sign, const
                             std::vector<int> open) {
   const Interval value = range(cell, function, sides);
   if (sign_of(value) == sign) return 1;
-  if (sign_of(value) == -sign) return -1;
+  if (sign > 0 ? value.hi() <= 0 : value.lo() >= 0) return -1;
   for (std::size_t i = 0; i < open.size(); ++i) {
     const std::size_t f = std::ranges::find(cell.free, open[i]) - cell.free.begin();
     const int growth = sign * sign_of(slope[f]);

@@ -161,7 +161,15 @@ class Bound {
     c.cell = parts_.cell(sheets_.free(sheet), sheets_.start(sheet, over));
     if (!parts_.bound(c.cell, kSteps)) return false;
     if (is_outside(c.cell)) return true;
-    if (find_parts(c)) {
+    bool found = find_parts(c);
+    if (!found) {
+      narrow(sheet, over, c.cell);
+      if (!parts_.bound(c.cell, 1)) return false;
+      if (is_outside(c.cell)) return true;
+      c.parts.clear();
+      found = find_parts(c);
+    }
+    if (found) {
       c.hull = Box(c.cell.sides.begin(), c.cell.sides.end());
       result.push_back(std::move(c));
       return true;
@@ -209,8 +217,9 @@ class Bound {
     if (fault.empty() && sheets_.holds(sheet, over, x)) cell.sides = std::move(x);
   }
 
-  // Do all points of S on the sheet over these sides lie in cells of other sheets?
-  bool is_elsewhere(std::size_t sheet, const FreeSides& over, int halvings) const {
+  // Do all points of S on the sheet over these sides lie in cells of other sheets? `via`: over how many sheets, each of which
+  // holds the points but leaves some of them to the next one.
+  bool is_elsewhere(std::size_t sheet, const FreeSides& over, int halvings, int via) const {
     whole_.stop().poll();
     SignCell cell = parts_.cell(sheets_.free(sheet), sheets_.start(sheet, over));
     for (int step = 0; step < kSteps; ++step)
@@ -221,21 +230,27 @@ class Bound {
       if (!parts_.bound(cell, 1)) return false;
       if (is_outside(cell)) return true;
     }
+    std::vector<std::pair<std::size_t, std::vector<FreeSides>>> left;
     for (std::size_t other = 0; other < sheets_.size(); ++other) {
       if (other == sheet || !sheets_.holds(other, sheets_.over(other), cell.sides)) continue;
       FreeSides there;
       for (const int f : sheets_.free(other)) there.emplace_back(cell.sides[f]);
-      if (open_parts(there, cells_of_[other], whole_.stop()).empty()) return true;
+      left.emplace_back(other, open_parts(there, cells_of_[other], whole_.stop()));
+      if (left.back().second.empty()) return true;
     }
+    for (const auto& [other, parts] : left)
+      if (via > 1 && std::ranges::all_of(
+                         parts, [&](const FreeSides& part) { return is_elsewhere(other, part, kHalvingsVia, via - 1); }))
+        return true;
     return halvings > 0 &&
-           in_halves(sheet, over, [&](const FreeSides& half) { return is_elsewhere(sheet, half, halvings - 1); });
+           in_halves(sheet, over, [&](const FreeSides& half) { return is_elsewhere(sheet, half, halvings - 1, via); });
   }
 
   std::string check_cover() {
     std::atomic<std::size_t> left = 0;
     for_each(cover_.boxes.size(), [&](std::size_t b) {
       for (const FreeSides& part : open_parts(sheets_.over(b), cells_of_[b], whole_.stop()))
-        if (!is_elsewhere(b, part, kHalvingsElsewhere)) ++left;
+        if (!is_elsewhere(b, part, kHalvingsElsewhere, kVia)) ++left;
     });
     return left == 0 ? "" : "its cells are not shown to cover all sheets";
   }
@@ -447,7 +462,7 @@ class Bound {
     });
   }
 
-  static constexpr int kSteps = 3, kHalvings = 4, kHalvingsElsewhere = 16;
+  static constexpr int kSteps = 3, kHalvings = 10, kHalvingsElsewhere = 16, kHalvingsVia = 2, kVia = 3;
 
   const Problem& whole_;
   const Cover& cover_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "corank/analyze/pieces/climb.h"
 #include "corank/core/box.h"
 #include "corank/core/box_tree.h"
 #include "corank/core/rounding.h"
@@ -38,9 +39,11 @@ class PieceCounter {
     }
     join_touching();
     join_at_ends();
-    keep_proof(result.proof);
     upper_bound(result);
     lower_bound(result);
+    if (result.at_most && !result.exact() && join_by_climbs()) upper_bound(result);
+    if (result.exact()) result.reason.clear();
+    keep_proof(result.proof);
     return result;
   }
 
@@ -166,7 +169,7 @@ class PieceCounter {
         const std::optional<PieceLink> there = meeting(piece.region, cell_of(end.other));
         if (!here || !there) continue;
         proven_.union_set(end.part, end.other);
-        joined_.push_back({end.part, end.other, {*here, *there}, SheetBridge{free_of(piece), piece.region}});
+        joined_.push_back({end.part, end.other, {*here, *there}, {SheetBridge{free_of(piece), piece.region}}});
         break;
       }
     }
@@ -213,6 +216,72 @@ class PieceCounter {
         }
   }
 
+  // From each class that is counted, of as many as there may be of its signs, to a larger one.
+  bool join_by_climbs() {
+    const UpwardRounding rounding;
+    bool hidden = false, joined = false;
+    const std::vector<bool> passes = passages(hidden);
+    std::map<std::size_t, std::vector<std::size_t>> classes;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (!passes[p]) classes[proven_.find_set(p)].push_back(p);
+    std::map<Signs, std::size_t> largest;
+    for (const auto& [root, parts] : classes) {
+      const auto [place, fresh] = largest.emplace(parts_[root].signs, root);
+      if (!fresh && classes[place->second].size() < parts.size()) place->second = root;
+    }
+    Climber climber(cells_);
+    for (const auto& [root, parts] : classes) {
+      if (largest[parts_[root].signs] == root) continue;
+      for (const std::size_t p : parts)
+        if (control_.ended() || climb_from(p, climber)) break;
+      joined = joined || proven_.find_set(root) == proven_.find_set(largest[parts_[root].signs]);
+    }
+    return joined;
+  }
+
+  // A solution in the part, if possible within the cell: over the middle of X_F, or towards its corners.
+  std::optional<Box> solution_of(const CellPart& part) {
+    const SignCell& cell = cells_.cells()[part.cell];
+    for (const double inset : {0.5, 0.1, 0.02, 0.004, 0.0})
+      for (std::size_t corner = 0; corner < std::size_t{1} << cell.free.size(); ++corner) {
+        Box at = cell.sides;
+        for (std::size_t f = 0; f < cell.free.size(); ++f) {
+          const Interval& side = cell.sides[cell.free[f]];
+          const double share = (corner >> f & 1) != 0 ? 1 - inset : inset;
+          at[cell.free[f]] = Interval(std::clamp(side.lo() + share * side.width(), side.lo(), side.hi()));
+        }
+        Box solution = cells_.solution_over(cell, std::move(at));
+        if (cells_.signs(solution) == part.signs) return solution;
+      }
+    return part.solution;
+  }
+
+  bool climb_from(std::size_t p, Climber& climber) {
+    const SignCell& cell = cell_of(p);
+    const std::optional<Box> start = solution_of(parts_[p]);
+    if (!start) return false;
+    Box from = cells_.region(cell);
+    for (const int f : cell.free) from[f] = cell.sides[f];
+    std::optional<std::size_t> other;
+    const auto arrived = [&](const SheetBridge& sheet) {
+      std::optional<PieceLink> last;
+      tree_.for_each_overlapping(sheet.region, 0, [&](std::size_t d) {
+        const auto part = part_of_[d].find(parts_[p].signs);
+        if (last || part == part_of_[d].end() || parts_[part->second].kind != Kind::connected ||
+            !cells_.cells()[d].mixed.empty() || proven_.find_set(part->second) == proven_.find_set(p))
+          return;
+        last = meeting(sheet.region, cells_.cells()[d]);
+        if (last) other = part->second;
+      });
+      return last;
+    };
+    std::optional<Climb> way = climber.climb(from, midpoint(*start), parts_[p].signs, arrived);
+    if (!way) return false;
+    proven_.union_set(p, *other);
+    joined_.push_back({p, *other, std::move(way->links), std::move(way->sheets)});
+    return true;
+  }
+
   // A solution that is proven to be in the piece and in the cell.
   std::optional<PieceLink> meeting(const Box& piece, const SignCell& cell) {
     Box common = cells_.region(cell);
@@ -246,10 +315,10 @@ class PieceCounter {
       if (known.find_set(joined.part) == known.find_set(joined.other)) continue;
       known.union_set(joined.part, joined.other);
       proof.links.insert(proof.links.end(), joined.links.begin(), joined.links.end());
-      if (!joined.bridge) continue;
-      proof.cells.push_back(
-          {static_cast<int>(cells_.given() + proof.bridges.size()), sides(joined.bridge->free, joined.bridge->region)});
-      proof.bridges.push_back(*joined.bridge);
+      for (const SheetBridge& bridge : joined.bridges) {
+        proof.cells.push_back({static_cast<int>(cells_.given() + proof.bridges.size()), sides(bridge.free, bridge.region)});
+        proof.bridges.push_back(bridge);
+      }
     }
   }
 
@@ -400,11 +469,11 @@ class PieceCounter {
     Box point;
   };
 
-  // Two parts, why they are of one piece, and by which sheet of its own, if any.
+  // Two parts, why they are of one piece, and by which sheets of their own, if any.
   struct Joined {
     std::size_t part, other;
     std::vector<PieceLink> links;
-    std::optional<SheetBridge> bridge;
+    std::vector<SheetBridge> bridges;
   };
 
   SignCells& cells_;

@@ -55,7 +55,8 @@ class SignCells {
   const Cover& cover() const { return cover_; }
   std::size_t given() const { return given_; }  ///< how many boxes of the cover are those of the one given
   const System& system() const { return system_; }
-  int functions() const { return proof_.functions(); }  ///< with the limits
+  const certify::CompiledSystem& compiled() const { return proof_.compiled(); }  ///< value rows: the functions
+  int functions() const { return proof_.functions(); }                           ///< with the limits
   int limits() const { return limits_; }
   bool is_limit(int function) const { return function >= functions() - limits_; }
   /// Those signs of a cell's mixed functions that are free to choose, as bits: all but the limits'.
