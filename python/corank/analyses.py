@@ -74,6 +74,7 @@ class Topology(Analysis):
         euler_characteristic: the Euler characteristic; None if it is not known.
         genus: the genus of each piece of a surface, ascending.
         reason: what is not known, and why.
+        robots: as of Aspects.
     """
 
     def __init__(self, text: str, table: str) -> None:
@@ -84,6 +85,7 @@ class Topology(Analysis):
         self.euler_characteristic: Optional[int] = self.data["euler_characteristic"]
         self.genus: List[int] = self.data["genus"]
         self.reason: str = self.data["reason"]
+        self.robots: Optional[Dict[str, Any]] = self.data.get("robots")
 
 
 class Cusp(NamedTuple):
@@ -118,6 +120,8 @@ class Aspects(Analysis, Certified):
             determinants.
         require: the requirements that are met in these pieces (with_requirements()).
         reason: what is not known, and why.
+        robots: where constants have tolerances: "tolerances", "every" (is it proven that every robot has these numbers?),
+            "reason" and "other", a robot with other numbers, or None. All else is of the robot as drawn. Else None.
         areas: with areas=True, bounds of the area that each aspect covers in the plane of the outputs; else None.
         cusps: with cusps=True, the cusps that were found; None if none were searched for.
         cusps_of: the loci whose cusps were searched for: "forward", "inverse".
@@ -148,6 +152,7 @@ class Aspects(Analysis, Certified):
         self.euler_characteristic: Optional[int] = self.data.get("euler_characteristic")
         self.cusps_not_known: List[str] = self.data.get("cusps_not_known", [])
         self.reason: str = self.data["reason"]
+        self.robots: Optional[Dict[str, Any]] = self.data.get("robots")
         self._missing = f"there is no certificate: {self.reason or 'aspects() needs certificate=True'}"
 
 
