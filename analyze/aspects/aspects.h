@@ -68,8 +68,8 @@ struct AspectsOptions {
 };
 
 /// Throws symbolic::ModelError where the model has no inputs or outputs, L_y or L_z is not square, or requirements are none
-/// that symbolic::required_space takes, or asked for beside cusps; and where requirements, images, cusps or a certificate are
-/// asked for of constants with tolerances.
+/// that symbolic::required_space takes, or asked for beside cusps; and where requirements, images, cusps or a certificate
+/// are asked for of constants with tolerances.
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control);
 
 /// "10 aspects, 2 assembly modes, 4 working modes", or bounds. Requires that something is known.

@@ -7,6 +7,7 @@
 #include "corank/analyze/aspects/aspects.h"
 #include "corank/analyze/clearance/clearance.h"
 #include "corank/analyze/clearance/json.h"
+#include "corank/analyze/robots/robots_words.h"
 #include "corank/certify/angle.h"
 #include "corank/core/check.h"
 #include "corank/result/values/claim_files.h"

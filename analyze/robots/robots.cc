@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "corank/analyze/robots/robots_words.h"
 #include "corank/certify/implied.h"
 #include "corank/result/values/words.h"
 #include "corank/symbolic/algebra/exact_value.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "corank/analyze/clearance/json.h"
+#include "corank/analyze/clearance/clearance.h"
 #include "corank/study/question.h"
 
 namespace corank::analyze {
@@ -29,17 +29,12 @@ struct Robots {
 /// fiftieth more, since it may be one of others. `own_ends`: the names of those ends as Limit::name, which are no limits.
 study::Question with_common_ranges(study::Question question, std::vector<std::string>& own_ends);
 
-/// Sets what is not known yet. `obstacle`: the condition that is not proven where tolerances are divided into that many parts
-/// at most, or nothing. `numbers`: of a question about one robot; those of robots at the corners of the tolerances, 16 at most,
-/// are compared with those of the one that was drawn. `question`: with common ranges.
+/// Sets what is not known yet. `obstacle`: the condition that is not proven where tolerances are divided into that many
+/// parts at most, or nothing. `numbers`: of a question about one robot; those of robots at the corners of the tolerances, 16
+/// at most, are compared with those of the one that was drawn. `question`: with common ranges.
 void examine(const study::Question& question, const ExactNumbers& drawn,
              const std::function<std::string(int parts)>& obstacle,
              const std::function<ExactNumbers(const study::Question&)>& numbers, Robots& robots,
              const solve::Control& control);
-
-/// Lines of a table.
-std::string robots_text(const Robots& robots);
-/// {"tolerances", "every", "reason", "other": {"constants", numbers}}.
-Json robots_json(const Robots& robots);
 
 }  // namespace corank::analyze

@@ -4,9 +4,9 @@
 // Example: C-space of a five-bar, divided by the factors of det L_y and det L_z. If no robot's zeros of a factor have a
 // node, and where two factors are 0 they cross, then all robots have as many aspects as the one that was drawn.
 //
-// Theorem (Thom 1969; Mather, "Notes on Topological Stability", 1970, § 11; doc/theory.md, "One shape for all robots"). P: the
-// box of tolerances; M = {(p, q): F = 0, e ≥ 0} in the search domain, p ∈ P, with e the functions of the limits that it
-// comes to. Let it be so for every set A of functions and limits:
+// Theorem (Thom 1969; Mather, "Notes on Topological Stability", 1970, § 11; doc/theory.md, "One shape for all robots").
+// P: the box of tolerances; M = {(p, q): F = 0, e ≥ 0} in the search domain, p ∈ P, with e the functions of the limits that
+// it comes to. Let it be so for every set A of functions and limits:
 //   {F = 0, f_j = 0 for j ∈ A} has, at each of its points in M, full rank in q alone, or has no point there.
 // Then (M_p; f_1, …, f_r) of all robots p ∈ P are homeomorphic, zeros and signs of each f_j and e_j included.
 //   Full rank in q: a complete cover by `regular`, `boundary` or `isolated` boxes, whose parameters are all free, and whose

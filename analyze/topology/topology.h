@@ -71,8 +71,8 @@ struct TopologyOptions {
 };
 
 /// Of the configurations (Question::set is ignored) of a mechanism, or of the solutions of a plain system. Where the
-/// control ends it early, what is proven so far. Throws symbolic::ModelError as study::system does, and where a certificate is
-/// asked for of constants with tolerances.
+/// control ends it early, what is proven so far. Throws symbolic::ModelError as study::system does, and where a certificate
+/// is asked for of constants with tolerances.
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control);
 
 /// What is written of it, for others to check. Requires its certificate.

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "corank/analyze/clearance/json.h"
+#include "corank/analyze/robots/robots_words.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/core/check.h"
 #include "corank/result/values/claim_files.h"
