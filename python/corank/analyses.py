@@ -199,6 +199,31 @@ class ToleranceFactor(Analysis):
         self.reason: Optional[str] = self.data["reason"]
 
 
+class AspectsFactor(Analysis):
+    """By which factor all tolerances may grow, while every robot within them keeps its numbers of aspects, assembly modes and
+    working modes.
+
+    Attributes:
+        lower: every robot within `lower` times the tolerances has them, proven.
+        upper: some robot within `upper` times the tolerances has others, proven; None: no such robot is known.
+        keep: the numbers, by "aspects", "assembly_modes", "working_modes".
+        tolerances: (lower, upper) of each constant at the factor `lower`.
+        robot: the constants of the robot that proves `upper`, intervals by name.
+        other: its numbers; None if no such robot is known.
+        reason: why the bounds are not closer, or why there is no upper one; None if they are as close as asked for.
+    """
+
+    def __init__(self, text: str, table: str) -> None:
+        super().__init__(text, table)
+        self.lower: float = self.data["factor"]["lo"]
+        self.upper: Optional[float] = self.data["factor"]["hi"]
+        self.keep: Dict[str, int] = self.data["keep"]
+        self.tolerances = _values(self.data["tolerances"])
+        self.robot = _values(self.data["robot"])
+        self.other: Optional[Dict[str, int]] = self.data["other"]
+        self.reason: Optional[str] = self.data["reason"]
+
+
 class BestCenter(Clearance):
     """The centre of the largest free ball in a region.
 
@@ -352,6 +377,21 @@ def tolerance_factor(
             about.question, about.ball, clearance, about.precision, about.options, show
         )
     return deliver(ToleranceFactor(text, table), raised)
+
+
+def aspects_factor(
+    self: "Mechanism", *, precision: float = 0.01, threads: int = 0, time_limit: float = 0, progress: ProgressOption = None
+) -> AspectsFactor:
+    """Finds by which factor all tolerances may grow, as in tolerance_factor(), while every robot within them keeps its numbers
+    of aspects, assembly modes and working modes.
+
+    Args:
+        precision: of each bound, relative.
+        time_limit: in seconds; 0: no limit.
+    """
+    with Shown(progress) as show:
+        text, table, raised = _corank.aspects_factor(ask(self._core), precision, threads, time_limit, show)
+    return deliver(AspectsFactor(text, table), raised)
 
 
 def best_center(self: "Mechanism", region: Mapping[str, RangeLike], **others: Any) -> BestCenter:
