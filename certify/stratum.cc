@@ -167,10 +167,10 @@ void Strata::relax(System& system, const std::vector<int>& ends) const {
   system.inequalities = std::move(rest);
 }
 
-System Strata::edge(int end) const {
+System Strata::closed(const std::vector<int>& ends) const {
   System system = system_;
-  relax(system, {end});
-  system.equations.push_back(ends_[end].function);
+  relax(system, ends);
+  for (const int j : ends) system.equations.push_back(ends_[j].function);
   return system;
 }
 

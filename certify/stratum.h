@@ -44,8 +44,9 @@ class Strata {
   int dimension() const { return static_cast<int>(coordinates_.size() - rows_.size()); }
   int variables() const { return system_.size(); }  ///< x
   const Polynomial& height() const { return height_; }
-  /// The closed stratum {F = 0, e_j = 0} of one end, in x.
-  System edge(int end) const;
+  /// The closed stratum {F = 0, e_j = 0 for each of these ends}, in x.
+  System closed(const std::vector<int>& ends) const;
+  System edge(int end) const { return closed({end}); }
   /// All A with |A| ≤ dimension(), but for both ends of one variable.
   std::vector<std::vector<int>> strata() const;
 

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "corank/analyze/aspects/aspects.h"
+#include "corank/analyze/aspects/aspects_factor.h"
 #include "corank/analyze/clearance/best_center.h"
 #include "corank/analyze/clearance/clearance.h"
 #include "corank/analyze/clearance/clearance_map.h"
@@ -159,6 +160,16 @@ py::tuple tolerance_factor(const Question& question, const analyze::BallOptions&
       });
 }
 
+py::tuple aspects_factor(const Question& question, double precision, int threads, double time_limit,
+                         const py::object& progress) {
+  refuse_plain_system(question, "aspects");
+  return said(progress, within(time_limit, [question, precision, threads](solve::Control& control) {
+                const analyze::AspectsFactor f =
+                    analyze::aspects_factor(question, {.precision = precision, .threads = threads, .progress = {}}, control);
+                return std::tuple(to_json(question, f), to_table(question, f));
+              }));
+}
+
 // Of the quaternion's four numbers as texts, or of a product of turns; none where both are empty.
 py::tuple postures(const Question& question, const Values& at, const std::optional<std::string>& turns,
                    const std::optional<std::array<std::string, 4>>& quaternion, const std::string& orientation_of,
@@ -249,6 +260,7 @@ void bind_analyses(py::module_& module) {
   module.def("best_center", &best_center);
   module.def("clearance_map", &clearance_map);
   module.def("tolerance_factor", &tolerance_factor);
+  module.def("aspects_factor", &aspects_factor);
   module.def("postures", &postures);
   module.def("cuspidal", &cuspidal);
   module.def("declared_ranges", &declared_ranges);

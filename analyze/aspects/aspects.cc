@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corank/analyze/aspects/aspect_product.h"
+#include "corank/analyze/aspects/aspects_of_robots.h"
 #include "corank/analyze/aspects/divided_space.h"
 #include "corank/analyze/clearance/ball.h"
 #include "corank/analyze/sets/standing.h"
@@ -39,11 +40,8 @@ void add_determinant_signs(const symbolic::TrigonometricSystem& equations, const
   for (std::size_t k = 0; k < at.size(); ++k) result.determinant_signs.push_back({y[k], z[k]});
 }
 
-}  // namespace
-
-Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control) {
+Aspects aspects_of_one(study::Question question, const AspectsOptions& options, solve::Control& control) {
   Aspects result;
-  study::require_exact_constants(question.model, "corank aspects");
   question.set = symbolic::SingularitySet::cspace;
   symbolic::TrigonometricSystem equations = study::equations(question);
   const Ended ended = [&control] { return control.ended(); };
@@ -108,6 +106,13 @@ Aspects aspects(study::Question question, const AspectsOptions& options, solve::
   result.assembly_modes = count(1);
   result.working_modes = count(2);
   return result;
+}
+
+}  // namespace
+
+Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control) {
+  if (question.model.toleranced().empty()) return aspects_of_one(std::move(question), options, control);
+  return aspects_of_robots(std::move(question), options, &aspects_of_one, control);
 }
 
 }  // namespace corank::analyze

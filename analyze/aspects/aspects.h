@@ -14,6 +14,7 @@
 
 #include "corank/analyze/aspects/aspect_cusps.h"
 #include "corank/analyze/aspects/aspect_images.h"
+#include "corank/analyze/robots/robots.h"
 
 namespace corank::result {
 struct PiecesFile;
@@ -49,6 +50,8 @@ struct Aspects {
   /// Of C-space, or of the first factor, with its proof, where AspectsOptions::certificate asks for it.
   std::shared_ptr<const Cover> cover;
   std::vector<int> places;  ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places)
+  /// Where constants have tolerances: are the numbers those of every robot? All else is of the one that was drawn.
+  std::optional<Robots> robots;
 };
 
 struct AspectsOptions {
@@ -65,7 +68,8 @@ struct AspectsOptions {
 };
 
 /// Throws symbolic::ModelError where the model has no inputs or outputs, L_y or L_z is not square, or requirements are none
-/// that symbolic::required_space takes, or asked for beside cusps.
+/// that symbolic::required_space takes, or asked for beside cusps; and where requirements, images, cusps or a certificate
+/// are asked for of constants with tolerances.
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control);
 
 /// "10 aspects, 2 assembly modes, 4 working modes", or bounds. Requires that something is known.

@@ -7,6 +7,7 @@
 #include "corank/analyze/aspects/aspects.h"
 #include "corank/analyze/clearance/clearance.h"
 #include "corank/analyze/clearance/json.h"
+#include "corank/analyze/robots/robots_words.h"
 #include "corank/certify/angle.h"
 #include "corank/core/check.h"
 #include "corank/result/values/claim_files.h"
@@ -138,6 +139,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n";
   text += fmt::format("  aspects         {}\n  assembly modes  {}\n  working modes   {}\n", bounds(a.aspects),
                       bounds(a.assembly_modes), bounds(a.working_modes));
+  if (a.robots) text += robots_text(*a.robots);
   for (const AspectsPart& part : a.product_of)
     text += fmt::format("  {} {}: {}\n", &part == &a.product_of.front() ? "a product of   " : "           and ",
                         fmt::join(part.coordinates, ", "), bounds(part.lists[0]));
@@ -173,6 +175,7 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
   for (const AspectsPart& part : a.product_of)
     json["product_of"].push_back({{"coordinates", part.coordinates}, {"aspects", bounds(part.lists[0])}});
   json["factors"] = {{"forward", a.forward_factors}, {"inverse", a.inverse_factors}};
+  if (a.robots) json["robots"] = robots_json(*a.robots);
   json["require"] = a.required;
   json["limits"] = a.limits;
   json["representatives"] = Json::array();

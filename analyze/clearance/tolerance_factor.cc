@@ -23,20 +23,6 @@ symbolic::Tolerance scaled(const symbolic::Constant& c, double factor) {
   return {c.value + s * (c.tolerance->lower - c.value), c.value + s * (c.tolerance->upper - c.value)};
 }
 
-// Throws ModelError where the robots of some tolerances may have other equations.
-study::Question scaled(study::Question question, double factor) {
-  std::vector<symbolic::Parameter> wider;
-  const symbolic::Mechanism drawn = question.model;
-  for (const symbolic::Constant& c : drawn.constants()) {
-    if (!c.tolerance) continue;
-    const symbolic::Tolerance tolerance = scaled(c, factor);
-    wider.push_back({c.name, tolerance.lower, tolerance.upper});
-    question.model.set_constant(c.name, c.value, tolerance);
-  }
-  if (question.assembly) symbolic::check_conditions(drawn.nominal(), question.assembly->conditions, wider);
-  return question;
-}
-
 class FactorSearch {
  public:
   FactorSearch(const study::Question& question, const BallOptions& ball, const ToleranceFactorOptions& options,
@@ -85,7 +71,7 @@ class FactorSearch {
   bool decide(double factor, ToleranceFactor& result) {
     Clearance found;
     try {
-      found = clearance_of(scaled(question_, factor), result);
+      found = clearance_of(with_scaled_tolerances(question_, factor), result);
     } catch (const symbolic::ModelError& error) {
       if (result.steps < 2) throw;  // of the tolerances that were given
       result.reason = fmt::format("{:g} times the tolerances: {}", factor, error.what());
@@ -139,16 +125,44 @@ class FactorSearch {
 
 }  // namespace
 
-ToleranceFactor tolerance_factor(const study::Question& question, const BallOptions& ball,
-                                 const ToleranceFactorOptions& options, const solve::Options& search,
-                                 solve::Control& control) {
-  const auto start = std::chrono::steady_clock::now();
+study::Question with_scaled_tolerances(study::Question question, double factor) {
+  std::vector<symbolic::Parameter> wider;
+  const symbolic::Mechanism drawn = question.model;
+  for (const symbolic::Constant& c : drawn.constants()) {
+    if (!c.tolerance) continue;
+    const symbolic::Tolerance tolerance = scaled(c, factor);
+    wider.push_back({c.name, tolerance.lower, tolerance.upper});
+    question.model.set_constant(c.name, c.value, tolerance);
+  }
+  if (question.assembly) symbolic::check_conditions(drawn.nominal(), question.assembly->conditions, wider);
+  return question;
+}
+
+std::vector<CoordinateValue> scaled_tolerances(const study::Question& question, double factor) {
+  std::vector<CoordinateValue> list;
+  for (const symbolic::Constant& c : question.model.constants()) {
+    if (!c.tolerance) continue;
+    const symbolic::Tolerance t = scaled(c, factor);
+    const auto at = [&](const Expression& e) { return symbolic::exact_value(question.model, e, c.name).enclose(); };
+    list.push_back({c.name, Interval::hull(at(t.lower), at(t.upper))});
+  }
+  return list;
+}
+
+void require_a_tolerance(const study::Question& question) {
   const auto is_wide = [&](const symbolic::Constant& c) {
     const auto at = [&](const Expression& e) { return symbolic::exact_value(question.model, e, c.name); };
     return c.tolerance && (at(c.tolerance->upper) - at(c.tolerance->lower)).sign() != 0;
   };
   if (std::ranges::none_of(question.model.constants(), is_wide))
     throw question_error(question, "no constant has a tolerance", "one at least, such as l := 0.9 ± 0.001");
+}
+
+ToleranceFactor tolerance_factor(const study::Question& question, const BallOptions& ball,
+                                 const ToleranceFactorOptions& options, const solve::Options& search,
+                                 solve::Control& control) {
+  const auto start = std::chrono::steady_clock::now();
+  require_a_tolerance(question);
   if (!(options.radius > 0) || !std::isfinite(options.radius))
     throw question_error(question, fmt::format("the radius to keep is {}", options.radius), "a positive number");
   ToleranceFactor result;
@@ -156,12 +170,7 @@ ToleranceFactor tolerance_factor(const study::Question& question, const BallOpti
   result.precision = options.precision;
   FactorSearch(question, ball, options, search, control).run(result);
   result.ball.question = question;
-  for (const symbolic::Constant& c : question.model.constants()) {
-    if (!c.tolerance) continue;
-    const symbolic::Tolerance t = scaled(c, result.lower);
-    const auto at = [&](const Expression& e) { return symbolic::exact_value(question.model, e, c.name).enclose(); };
-    result.tolerances.push_back({c.name, Interval::hull(at(t.lower), at(t.upper))});
-  }
+  result.tolerances = scaled_tolerances(question, result.lower);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -38,6 +38,14 @@ struct ToleranceFactor {
   double seconds = 0;
 };
 
+/// The question with tolerances that are so many times as large. Throws ModelError where the robots of some of them may have
+/// other equations.
+study::Question with_scaled_tolerances(study::Question question, double factor);
+/// Those tolerances, enclosed.
+std::vector<CoordinateValue> scaled_tolerances(const study::Question& question, double factor);
+/// Throws ModelError where no constant has a tolerance.
+void require_a_tolerance(const study::Question& question);
+
 /// Throws ModelError as clearance() does, and where no constant has a tolerance.
 ToleranceFactor tolerance_factor(const study::Question& question, const BallOptions& ball,
                                  const ToleranceFactorOptions& options, const solve::Options& search,

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "corank/analyze/pieces/pieces.h"
+#include "corank/analyze/robots/same_strata.h"
 #include "corank/analyze/topology/topology_with_ends.h"
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/inertia.h"
@@ -277,17 +278,47 @@ std::shared_ptr<const Shape> certificate(const Topology& result, Solved& space, 
                                              result.euler_characteristic, result.genus});
 }
 
-}  // namespace
-
-Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
-  study::require_exact_constants(question.model, "corank topology");
-  question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
-  question.corank = 1;
-  question.tolerance = 0;
+Topology of_one_robot(const study::Question& question, const TopologyOptions& options, solve::Control& control) {
   Solved space{study::system(question), {}};
   Topology result = found(question, space, options, control);
   if (options.certificate) result.certificate = certificate(result, space, control);
   return result;
+}
+
+ExactNumbers exact_numbers(const Topology& t) {
+  ExactNumbers numbers;
+  if (t.components.exact()) numbers.emplace_back("components", t.components.at_least);
+  if (t.euler_characteristic) numbers.emplace_back("euler_characteristic", *t.euler_characteristic);
+  if (t.boundary) numbers.emplace_back("boundary_curves", *t.boundary);
+  return numbers;
+}
+
+Topology of_robots(study::Question question, const TopologyOptions& options, solve::Control& control) {
+  if (options.certificate) study::require_exact_constants(question.model, "a certificate of a shape");
+  Robots robots{.toleranced = question.model.toleranced(), .same = false, .obstacle = {}, .other = {}, .other_numbers = {}};
+  std::vector<std::string> own_ends;
+  question = with_common_ranges(std::move(question), own_ends);
+  study::Question drawn = question;
+  drawn.model = question.model.nominal();
+  Topology result = of_one_robot(drawn, options, control);
+  const System system = study::system(question);
+  const auto obstacle = [&](int parts) {
+    return obstacle_to_same_strata(system, {}, own_ends, {.threads = options.threads, .parts = parts}, control);
+  };
+  const auto numbers = [&](const study::Question& one) { return exact_numbers(of_one_robot(one, options, control)); };
+  examine(question, exact_numbers(result), obstacle, numbers, robots, control);
+  result.robots = std::move(robots);
+  return result;
+}
+
+}  // namespace
+
+Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
+  question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
+  question.corank = 1;
+  question.tolerance = 0;
+  return question.model.toleranced().empty() ? of_one_robot(question, options, control)
+                                             : of_robots(std::move(question), options, control);
 }
 
 }  // namespace corank::analyze

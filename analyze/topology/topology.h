@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/analyze/robots/robots.h"
 #include "corank/analyze/sets/components.h"
 #include "corank/core/shape.h"
 #include "corank/study/question.h"
@@ -57,6 +58,8 @@ struct Topology {
   std::uint64_t processed = 0;       ///< boxes of all searches
   /// Where it was asked for and can be given: for others to check. Nothing of sets that come to an end, and of points.
   std::shared_ptr<const Shape> certificate;
+  /// Where constants have tolerances: are the numbers those of every robot? All else is of the one that was drawn.
+  std::optional<Robots> robots;
 };
 
 struct TopologyOptions {
@@ -68,7 +71,8 @@ struct TopologyOptions {
 };
 
 /// Of the configurations (Question::set is ignored) of a mechanism, or of the solutions of a plain system. Where the
-/// control ends it early, what is proven so far. Throws symbolic::ModelError as study::system does.
+/// control ends it early, what is proven so far. Throws symbolic::ModelError as study::system does, and where a certificate
+/// is asked for of constants with tolerances.
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control);
 
 /// What is written of it, for others to check. Requires its certificate.

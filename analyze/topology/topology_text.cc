@@ -3,6 +3,7 @@
 #include <array>
 
 #include "corank/analyze/clearance/json.h"
+#include "corank/analyze/robots/robots_words.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/core/check.h"
 #include "corank/result/values/claim_files.h"
@@ -62,6 +63,7 @@ result::ShapeFile to_file(const study::Question& question, const Topology& topol
 std::string to_text(const study::Question& question, const Topology& t) {
   std::string text = fmt::format("{}, {}\n", question.model.name(),
                                  question.model.is_plain_system() ? "solutions of the system" : "C-space");
+  if (t.robots) text += robots_text(*t.robots);
   text += fmt::format("  dimension             {}\n", t.dimension);
   text += fmt::format("  components            {}\n", components_text(t.components));
   if (t.dimension > 0 && t.ends.empty())
@@ -99,6 +101,7 @@ std::string to_json(const study::Question& question, const Topology& t, bool com
   json["heights"] = Json::array();
   for (const HeightCount& h : t.heights)
     json["heights"].push_back({{"critical_points", h.points()}, {"by_index", h.by_index}, {"uncounted", h.uncounted}});
+  if (t.robots) json["robots"] = robots_json(*t.robots);
   json["reason"] = t.reason.empty() ? t.components.reason : t.reason;
   json["processed"] = t.processed;
   json["complete"] = complete;

@@ -15,6 +15,7 @@ from ._corank import Expression, Relation
 from .analyses import (
     Analysis,
     Aspects,
+    AspectsFactor,
     BestCenter,
     Bounds,
     Clearance,
@@ -49,6 +50,7 @@ __all__ = [
     "Analysis",
     "Angle",
     "Aspects",
+    "AspectsFactor",
     "BestCenter",
     "Bounds",
     "Clearance",

@@ -246,6 +246,9 @@ def postures(
 def tolerance_factor(
     question: Question, ball: Ball, radius: float, precision: float, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[BaseException]]: ...
+def aspects_factor(
+    question: Question, precision: float, threads: int, time_limit: float, progress: Any
+) -> Tuple[str, str, Optional[BaseException]]: ...
 def best_center(
     question: Question, ball: Ball, region: _Ranges, precision: float, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[BaseException]]: ...

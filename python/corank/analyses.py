@@ -74,6 +74,7 @@ class Topology(Analysis):
         euler_characteristic: the Euler characteristic; None if it is not known.
         genus: the genus of each piece of a surface, ascending.
         reason: what is not known, and why.
+        robots: as of Aspects.
     """
 
     def __init__(self, text: str, table: str) -> None:
@@ -84,6 +85,7 @@ class Topology(Analysis):
         self.euler_characteristic: Optional[int] = self.data["euler_characteristic"]
         self.genus: List[int] = self.data["genus"]
         self.reason: str = self.data["reason"]
+        self.robots: Optional[Dict[str, Any]] = self.data.get("robots")
 
 
 class Cusp(NamedTuple):
@@ -118,6 +120,8 @@ class Aspects(Analysis, Certified):
             determinants.
         require: the requirements that are met in these pieces (with_requirements()).
         reason: what is not known, and why.
+        robots: where constants have tolerances: "tolerances", "every" (is it proven that every robot has these numbers?),
+            "reason" and "other", a robot with other numbers, or None. All else is of the robot as drawn. Else None.
         areas: with areas=True, bounds of the area that each aspect covers in the plane of the outputs; else None.
         cusps: with cusps=True, the cusps that were found; None if none were searched for.
         cusps_of: the loci whose cusps were searched for: "forward", "inverse".
@@ -148,6 +152,7 @@ class Aspects(Analysis, Certified):
         self.euler_characteristic: Optional[int] = self.data.get("euler_characteristic")
         self.cusps_not_known: List[str] = self.data.get("cusps_not_known", [])
         self.reason: str = self.data["reason"]
+        self.robots: Optional[Dict[str, Any]] = self.data.get("robots")
         self._missing = f"there is no certificate: {self.reason or 'aspects() needs certificate=True'}"
 
 
@@ -191,6 +196,31 @@ class ToleranceFactor(Analysis):
         self.tolerances = _values(self.data["tolerances"])
         self.robot = _values(self.data["robot"])
         self.nearest = None if self.data["nearest"] is None else _values(self.data["nearest"])
+        self.reason: Optional[str] = self.data["reason"]
+
+
+class AspectsFactor(Analysis):
+    """By which factor all tolerances may grow, while every robot within them keeps its numbers of aspects, assembly modes and
+    working modes.
+
+    Attributes:
+        lower: every robot within `lower` times the tolerances has them, proven.
+        upper: some robot within `upper` times the tolerances has others, proven; None: no such robot is known.
+        keep: the numbers, by "aspects", "assembly_modes", "working_modes".
+        tolerances: (lower, upper) of each constant at the factor `lower`.
+        robot: the constants of the robot that proves `upper`, intervals by name.
+        other: its numbers; None if no such robot is known.
+        reason: why the bounds are not closer, or why there is no upper one; None if they are as close as asked for.
+    """
+
+    def __init__(self, text: str, table: str) -> None:
+        super().__init__(text, table)
+        self.lower: float = self.data["factor"]["lo"]
+        self.upper: Optional[float] = self.data["factor"]["hi"]
+        self.keep: Dict[str, int] = self.data["keep"]
+        self.tolerances = _values(self.data["tolerances"])
+        self.robot = _values(self.data["robot"])
+        self.other: Optional[Dict[str, int]] = self.data["other"]
         self.reason: Optional[str] = self.data["reason"]
 
 
@@ -347,6 +377,21 @@ def tolerance_factor(
             about.question, about.ball, clearance, about.precision, about.options, show
         )
     return deliver(ToleranceFactor(text, table), raised)
+
+
+def aspects_factor(
+    self: "Mechanism", *, precision: float = 0.01, threads: int = 0, time_limit: float = 0, progress: ProgressOption = None
+) -> AspectsFactor:
+    """Finds by which factor all tolerances may grow, as in tolerance_factor(), while every robot within them keeps its numbers
+    of aspects, assembly modes and working modes.
+
+    Args:
+        precision: of each bound, relative.
+        time_limit: in seconds; 0: no limit.
+    """
+    with Shown(progress) as show:
+        text, table, raised = _corank.aspects_factor(ask(self._core), precision, threads, time_limit, show)
+    return deliver(AspectsFactor(text, table), raised)
 
 
 def best_center(self: "Mechanism", region: Mapping[str, RangeLike], **others: Any) -> BestCenter:

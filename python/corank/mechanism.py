@@ -335,6 +335,7 @@ class Mechanism:
 
     clearance = analyses.clearance
     tolerance_factor = analyses.tolerance_factor
+    aspects_factor = analyses.aspects_factor
     postures = posturing.postures
     cuspidal = posturing.cuspidal
     best_center = analyses.best_center

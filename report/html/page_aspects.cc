@@ -64,6 +64,7 @@ std::optional<PageAspects> page_aspects(const study::Question& question, const s
                                         int threads, const std::string& limit, solve::Control& control) {
   const auto is_cspace = [](const result::Result* r) { return symbolic::definition(r->set).is_cspace(); };
   const auto cspace = std::find_if(results.begin(), results.end(), is_cspace);
+  if (!question.model.toleranced().empty()) return std::nullopt;  // they are one robot's
   if (cspace == results.end() || !(*cspace)->cover.complete() || (*cspace)->cover.dimension > 2) return std::nullopt;
   analyze::AspectsOptions wanted{.threads = threads, .requirements = false};
   wanted.drawn = drawn_coordinates(question.model);

@@ -19,7 +19,8 @@ std::size_t place_of(const Expression& e, std::size_t known, std::vector<Express
 
 }  // namespace
 
-std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended) {
+std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended,
+                                            std::vector<Expression>* constants) {
   ExactMatrix m(mechanism, matrix, residuals(mechanism));
   m.eliminate_numbers();
   const auto vanishing = [&]() -> ModelError {
@@ -42,7 +43,10 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
   }
   std::vector<Expression> result;
   for (const RationalPolynomial& factor : factors)
-    if (std::optional<Expression> condition = m.condition(factor)) result.push_back(std::move(*condition));
+    if (std::optional<Expression> condition = m.condition(factor))
+      result.push_back(std::move(*condition));
+    else if (constants != nullptr && !factor.is_number())
+      constants->push_back(m.expression(factor));
   std::sort(result.begin(), result.end(), [](const Expression& a, const Expression& b) { return a.text() < b.text(); });
   return result;
 }
@@ -69,7 +73,7 @@ Loci singularity_loci(const Mechanism& mechanism, const Ended& ended) {
   Loci loci;
   loci.matrices = {locked_matrix(mechanism, SingularitySet::forward), locked_matrix(mechanism, SingularitySet::inverse)};
   for (std::size_t k = 0; k < 2; ++k) {
-    loci.factors[k] = determinant_factors(mechanism, loci.matrices[k], ended);
+    loci.factors[k] = determinant_factors(mechanism, loci.matrices[k], ended, &loci.constants);
     const std::size_t known = loci.all_factors.size();
     for (const Expression& e : loci.factors[k]) loci.places[k].push_back(place_of(e, known, loci.all_factors));
   }

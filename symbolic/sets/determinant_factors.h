@@ -20,8 +20,10 @@ namespace corank::symbolic {
 /// (RationalPolynomial::factors), or is not by the time `ended` says so, stays one factor. Throws ModelError where det M
 /// vanishes at all configurations or where M is not square, DeterminantTooLarge where a block has more than 16 rows, or its
 /// determinant more than 20,000 terms.
+/// `constants`: where given, further factors are added to it: those without a coordinate, but for numbers. Constants with
+/// tolerances are unknowns, too, so that all of this holds for every robot.
 std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix,
-                                            const Ended& ended = {});
+                                            const Ended& ended = {}, std::vector<Expression>* constants = nullptr);
 
 /// L_y of the forward set or L_z of the inverse one, as `corank derive` prints them.
 ExpressionMatrix locked_matrix(const Mechanism& mechanism, SingularitySet set);
@@ -33,6 +35,7 @@ struct Loci {
   std::vector<Expression> all_factors;               ///< of both, and further functions, each once
   std::array<std::vector<std::size_t>, 2> places{};  ///< of the factors of each among all
   std::vector<std::size_t> further{};                ///< likewise
+  std::vector<Expression> constants{};               ///< factors of det L_y and det L_z without a coordinate
 
   /// Of the functions that divide C-space into aspects, assembly modes and working modes, the places among all factors.
   std::array<std::vector<std::size_t>, 3> lists() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -71,7 +72,9 @@ bool gives_a_graph(const std::vector<Relation>& given, const std::vector<Express
 }  // namespace
 
 std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
-  if (!mechanism.toleranced().empty()) return std::nullopt;
+  const auto varies = [&](const Expression& e) { return !mechanism.toleranced_in(e).empty(); };
+  for (const Coordinate& c : mechanism.coordinates())
+    if (c.has_range && (varies(c.lower) || varies(c.upper))) return std::nullopt;
   const std::vector<Expression> equations = residuals(mechanism);
   const ExactMatrix none(mechanism, {}, equations);
   if (!none.is_explicit()) return std::nullopt;
@@ -95,11 +98,15 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
   for (const Coordinate& c : system.coordinates)
     ranges[c.name] = Interval(exact_value(mechanism, c.lower, c.name).enclose().lo(),
                               exact_value(mechanism, c.upper, c.name).enclose().hi());
-  const auto known = [&](const Expression& e) -> std::optional<Interval> {
+  const std::function<std::optional<Interval>(const Expression&)> known =
+      [&](const Expression& e) -> std::optional<Interval> {
     if (e.is_named_function() && (e.name() == "sin" || e.name() == "cos")) return Interval(-1, 1);
     if (e.kind() != Expression::Kind::symbol) return std::nullopt;
     if (const auto own = ranges.find(e.name()); own != ranges.end()) return own->second;
-    return exact_value(mechanism, e, e.name()).enclose();
+    const auto exact = [&](const Expression& value) { return exact_value(mechanism, value, e.name()).enclose(); };
+    if (!varies(e)) return exact(e);
+    const Constant& c = *std::ranges::find(mechanism.constants(), e.name(), &Constant::name);
+    return c.tolerance ? Interval::hull(exact(c.tolerance->lower), exact(c.tolerance->upper)) : range_of(c.value, known);
   };
   std::optional<std::set<std::string>> units;
   for (const Relation& r : result.given) {
@@ -113,7 +120,7 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
       if (!c.has_range) continue;  // its range is what the equations say
       const bool is_constant = mentioned(system.coordinates, value).empty();
       const std::optional<Interval> range =
-          is_constant ? exact_value(mechanism, value, name).enclose() : range_of(value, known);
+          is_constant && !varies(value) ? exact_value(mechanism, value, name).enclose() : range_of(value, known);
       if (range && is_in_range(mechanism, c, *range)) continue;
       if (is_constant) return std::nullopt;
       if (c.auxiliary && is_in_range(mechanism, c, Interval(-1, 1))) {

@@ -25,8 +25,8 @@ struct FreeCoordinates {
   std::vector<Relation> given;
 };
 
-/// Nothing where some equation gives no coordinate, a given one has one value or stands in a sine, or a constant has a
-/// tolerance.
+/// Nothing where some equation gives no coordinate, a given one has one value or stands in a sine, or a range depends on a
+/// tolerance. Other constants with tolerances stay names: the theorem holds for every robot.
 std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism);
 
 /// A factor of a product of sets.

@@ -69,6 +69,17 @@ def test_the_clearance_of_dextar_is_bounded_from_both_sides(dextar):
     assert c.free.verify().complete and len(c.free) == 0 and c.nearest_result.verify()
 
 
+def test_all_robots_within_tolerances_have_the_same_shape(models):
+    m = corank.load(models / "planar" / "four_bar_crank_rocker.cuik", d="5±0.01")
+    assert m.topology().robots["every"] and m.topology().components == (2, 2)
+    assert m.aspects().robots["every"]
+    wide = corank.load(models / "planar" / "four_bar_crank_rocker.cuik", d="5±1").topology()
+    assert not wide.robots["every"] and wide.robots["other"]["components"] == 1
+    assert "another robot" in str(wide)
+    f = corank.load(models / "planar" / "four_bar_crank_rocker.cuik", d="5.05±0.1").aspects_factor(precision=0.3)
+    assert 0 < f.lower <= 4.5 <= f.upper and f.keep["aspects"] == 4 and f.other["working_modes"] == 2
+
+
 def test_tolerances_may_grow_until_a_robot_falls_short(models):
     m = corank.load(models / "dextar.cuik", l="0.9±0.001", d="1.18±0.001")
     f = m.tolerance_factor(0.15, {"J3x": 0.5, "J3y": 1}, ["J3x", "J3y"], precision=0.1)

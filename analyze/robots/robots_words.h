@@ -1,0 +1,16 @@
+// What is said of all robots within their tolerances, in a table and as JSON.
+#pragma once
+
+#include <string>
+
+#include "corank/analyze/clearance/json.h"
+#include "corank/analyze/robots/robots.h"
+
+namespace corank::analyze {
+
+/// Lines of a table.
+std::string robots_text(const Robots& robots);
+/// {"tolerances", "every", "reason", "other": {"constants", numbers}}.
+Json robots_json(const Robots& robots);
+
+}  // namespace corank::analyze
