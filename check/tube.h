@@ -3,7 +3,8 @@
 // Of each node: its box holds a solution of F(x) = 0, T_k·x = c_k (Krawczyk, Brouwer). Of each piece, for every t in [0, 1]:
 // its box holds exactly one solution of F(x) = 0, (1 − t)(T_k·x − c_k) + t (T_{k+1}·x − c_{k+1}) = 0, and it holds the boxes
 // of its two nodes. So the nodes are the pieces' ends, and the pieces one path. About each piece, so far as its radius says:
-// no matrix loses rank, the domain and the inequalities hold, and bodies keep their distances. All of that for every value of the parameters.
+// no matrix loses rank, the domain and the inequalities hold, and bodies keep their distances. All of that for every value
+// of the parameters.
 #pragma once
 
 #include <vector>

@@ -60,8 +60,8 @@ struct Drawing {
   int find(const std::string& point) const;
   /// Throws ModelError, with the place, for: a point named twice, with one or more than three coordinates, or with another
   /// number of them than the first, or a velocity with another number; a part with an unknown point, a point twice, too few
-  /// or too many; a hinge in the plane; a colour that is none, or of a part that has none; a name likewise. Radii are the matter of
-  /// Mechanism::validate().
+  /// or too many; a hinge in the plane; a colour that is none, or of a part that has none; a name likewise. Radii are the
+  /// matter of Mechanism::validate().
   void validate() const;
 };
 

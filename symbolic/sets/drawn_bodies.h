@@ -20,8 +20,9 @@ struct RoundedHull {
 /// In the plane its third coordinate is 0. Throws RequirementFault for a name that is none of the drawing's.
 std::array<Expression, 3> drawn_point(const Drawing& drawing, const std::string& name);
 
-/// One name of a body: of its parts each sphere, each cylinder, rounded at its ends, each link as the hull of its points, and
-/// all platforms, its faces, as one hull. Else names of points, whose hull is the body. Throws RequirementFault for a name that is none of the drawing's.
+/// One name of a body: of its parts each sphere, each cylinder, rounded at its ends, each link as the hull of its points,
+/// and all platforms, its faces, as one hull. Else names of points, whose hull is the body. Throws RequirementFault as
+/// drawn_point() does, and for too many points.
 std::vector<RoundedHull> drawn_body(const Drawing& drawing, const std::vector<std::string>& names);
 
 /// As many as the largest body of one hull may have points.

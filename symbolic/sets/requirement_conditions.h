@@ -41,8 +41,7 @@ struct Conditions {
   std::vector<DistanceCondition> of_distances{};
 };
 
-/// Throws ModelError where the limit of the requirement is no zero of determinants: a distance is known where it is compared,
-/// but what is nearest to what changes.
+/// Throws ModelError for a distance: its limit is no zero of determinants, for what is nearest to what changes.
 void refuse_distances(const RequirementLine& line, const Conditions& conditions);
 
 /// One requirement after the other, of one mechanism, whose velocity equation is derived once.
