@@ -56,7 +56,7 @@ def test_it_is_drawn_with_a_legend(cusp):
 
 def test_bodies_keep_apart_in_cells(dextar):
     apart = dextar.map(
-        {"J3x": (-1, 2.2), "J3y": (-2, 2)}, require="distance(J5 J4, J2 J3) >= 5 mm", resolution=32, certificate=True
+        {"J3x": (0.25, 1), "J3y": (0.3, 1.75)}, require="distance(J5 J4, J2 J3) >= 5 mm", resolution=32, certificate=True
     )
     assert apart.at(0.59, 1.2) is True and apart.at(0.59, 0.55) is False
     assert apart.verify().verified
