@@ -1,6 +1,5 @@
 // corank map: a number over a plane of two constants or coordinates.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -74,7 +73,7 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
   result.x_range = map.region[0], result.y_range = map.region[1];
   using Kind = analyze::MapCellAnswer::Kind;
   if (!map.require.empty()) {
-    result.what = fmt::format("{}", fmt::join(map.require, "; "));
+    result.what = map.require.size() == 1 ? map.require[0] : result::counted(map.require.size(), "requirement");
     result.words = {"no solution", "violated by one solution at least", "satisfied by every solution"};
   }
   for (const analyze::MapCellAnswer& c : map.cells) {

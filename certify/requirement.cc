@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "corank/certify/distance.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
@@ -222,6 +223,8 @@ Standing standing(const Requirement& requirement, const FormOfVariable& form, Of
     const Interval range = form(*requirement.excess).range(offsets);
     result = range.hi() <= 0 ? Standing::satisfied : range.lo() > 0 ? Standing::violated : Standing::open;
   }
+  for (const DistanceTest& test : requirement.distances)
+    if (result != Standing::violated) result = both(result, standing(test, form, offsets));
   for (const VelocityTest& test : requirement.tests) {
     if (result == Standing::violated) break;
     const std::optional<Kernel> space = kernel(test, form, offsets);

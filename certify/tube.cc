@@ -11,7 +11,7 @@
 namespace corank::certify {
 namespace {
 
-constexpr int kHalvings = 5;  // of a box in which a matrix is to have its rank
+constexpr int kHalvings = 5;  // of a box in which a matrix is to have its rank, and bodies their distance
 
 System without_inequalities(System system) {
   system.inequalities.clear();
@@ -47,8 +47,9 @@ void add_term(Polynomial& f, double coefficient, Factors factors) {
 
 }  // namespace
 
-TubeProver::TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks)
-    : bare_(without_inequalities(system)), compiled_(system), domain_(system) {
+TubeProver::TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks,
+                       const KeptDistances& distances)
+    : bare_(without_inequalities(system)), compiled_(system), domain_(system), distances_(system, distances) {
   CORANK_CHECK(matrices.size() == ranks.size());
   for (std::size_t k = 0; k < matrices.size(); ++k) {
     bounds_.emplace_back(system, matrices[k]);
@@ -133,7 +134,7 @@ bool TubeProver::is_free(const Box& piece, double r, const std::vector<double>& 
   if (domain_.locate(compiled_, box) != Location::inside) return false;
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     if (bounds_[k].at_most(box, kHalvings) > most_[k]) return false;
-  return true;
+  return distances_.holds(box, kHalvings);
 }
 
 bool TubeProver::joins(const Box& a, const Box& b, const Box& within) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "corank/certify/compiled_system.h"
+#include "corank/certify/distance_bound.h"
 #include "corank/certify/domain.h"
 #include "corank/certify/kernel_bound.h"
 #include "corank/certify/newton.h"
@@ -20,12 +21,13 @@ namespace corank::certify {
 /// function theorem). Where the box N of a node lies in the boxes P, P' of both its pieces and holds a solution of F = 0,
 /// T·x = c, that is P's at t = 1 and P''s at t = 0, since each has one only: the pieces are one path.
 /// Parameters are free as t is, over their whole domains, so that this holds for every robot: it has a path x(t) of its own.
-/// Every x with F(x) = 0 in P inflated by r, but for parameters, has matrices of full rank and is in the domain, where
-/// is_free(P, r, sizes).
+/// Every x with F(x) = 0 in P inflated by r, but for parameters, has matrices of full rank, is in the domain, and keeps the
+/// distances, where is_free(P, r, sizes).
 class TubeProver {
  public:
   /// ranks: of each matrix, the one that it is to have.
-  TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks);
+  TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks,
+             const KeptDistances& distances = {});
 
   /// The node's box about the point, nothing where none is proven. Each of these requires UpwardRounding::active().
   std::optional<Box> node(const std::vector<double>& rows, const std::vector<double>& values,
@@ -33,7 +35,7 @@ class TubeProver {
   /// The box of the piece between two nodes; it holds theirs.
   std::optional<Box> piece(const TubeNode& a, const TubeNode& b);
   /// Over the whole box with r times the variable's size added to each side: every matrix has its rank, the domain and the
-  /// inequalities hold. `sizes`: Tube::sizes.
+  /// inequalities hold, bodies keep their distances. `sizes`: Tube::sizes.
   bool is_free(const Box& piece, double r, const std::vector<double>& sizes) const;
   /// A connected piece of the solution set that holds a solution in each of the boxes, and lies in `within`: the graph over
   /// a box of n − m variables, for every value of which it has exactly one solution.
@@ -48,6 +50,7 @@ class TubeProver {
   CompiledSystem compiled_;
   DomainTest domain_;
   std::vector<KernelBound> bounds_;
+  DistanceBound distances_;
   std::vector<int> most_;  // of each matrix, the largest kernel that it may have
   NewtonWorkspace workspace_;
 };

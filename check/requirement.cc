@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "corank/check/distance.h"
 #include "corank/check/inertia.h"
 #include "corank/check/krawczyk.h"
 #include "corank/core/dense.h"
@@ -215,11 +216,12 @@ Standing standing(const Requirement& requirement, const FormOfVariable& form, co
     if (excess.is_positive()) return Standing::violated;
     if (!excess.at_most(Enclosure(0.0))) result = Standing::open;
   }
-  for (const VelocityTest& test : requirement.tests) {
-    const Standing part = VelocityCheck(test, form, offsets).run();
-    if (part == Standing::violated) return part;
-    if (part == Standing::open) result = part;
-  }
+  const auto add = [&](Standing part) {
+    if (result != Standing::violated && part != Standing::satisfied) result = part;
+  };
+  for (const DistanceTest& test : requirement.distances) add(standing(test, form, offsets));
+  for (const VelocityTest& test : requirement.tests)
+    if (result != Standing::violated) add(VelocityCheck(test, form, offsets).run());
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "corank/check/distance.h"
 #include "corank/check/kernel.h"
 #include "corank/check/krawczyk.h"
 #include "corank/check/problem.h"
@@ -18,8 +19,13 @@ bool finite(const std::vector<double>& list) {
 
 class TubeCheck {
  public:
-  TubeCheck(const System& system, const std::vector<PolynomialMatrix>& matrices, const Tube& tube, const StopFlag& stop)
-      : system_(system), tube_(tube), problem_(system, {}, stop), n_(system.variables.size()) {
+  TubeCheck(const System& system, const std::vector<PolynomialMatrix>& matrices, const KeptDistances& distances,
+            const Tube& tube, const StopFlag& stop)
+      : system_(system),
+        tube_(tube),
+        problem_(system, {}, stop),
+        distances_(system, distances, stop),
+        n_(system.variables.size()) {
     for (int j = 0; j < system.size(); ++j) (system.variables[j].is_parameter() ? parameters_ : unknowns_).push_back(j);
     for (const PolynomialMatrix& m : matrices) {
       std::set<int> filled;  // rows
@@ -122,7 +128,7 @@ class TubeCheck {
         return "a range, a limit or an inequality is not shown about it";
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (!kernels_[k].is_at_most(most_[k], box)) return "a singularity is not excluded about it";
-    return "";
+    return distances_.holds(x) ? "" : "bodies are not shown to keep their distances about it";
   }
 
   const System& system_;
@@ -131,17 +137,18 @@ class TubeCheck {
   std::vector<int> parameters_, unknowns_;
   std::vector<KernelCheck> kernels_;
   std::vector<int> most_;
+  DistanceCheck distances_;
   std::size_t n_;
 };
 
 }  // namespace
 
 TubeReport check_tube(const System& system, const std::vector<PolynomialMatrix>& matrices, const Tube& tube,
-                      const Options& options) {
+                      const Options& options, const KeptDistances& distances) {
   const StopFlag stop(options.ended);
   TubeReport report;
   report.interrupted = !finishes([&] {
-    const TubeCheck check(system, matrices, tube, stop);
+    const TubeCheck check(system, matrices, distances, tube, stop);
     if (std::string problem = check.misshapen(); !problem.empty()) return report.failures.push_back(std::move(problem));
     const auto note = [&](const std::string& what, std::size_t k, const std::string& problem, std::size_t& confirmed) {
       stop.poll();

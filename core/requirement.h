@@ -1,12 +1,14 @@
 // What is required of a configuration q besides being one: how fast, strong or exact the robot is there. As conditions on
-// its feasible velocities, those m with A(q) m = 0, which are compared with numbers; and as a function's sign.
+// its feasible velocities, those m with A(q) m = 0, which are compared with numbers; as a function's sign; and on distances.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "corank/core/exact_number.h"
+#include "corank/core/system.h"
 
 namespace corank {
 
@@ -16,7 +18,7 @@ enum class Standing { satisfied, violated, open };
 const char* to_string(Standing standing);
 std::optional<Standing> standing_from_string(const std::string& text);
 
-/// An entry of A: a variable of the system that stands for it, or a number.
+/// An entry of A, or of a point: a variable of the system that stands for it, or a number.
 struct MatrixEntry {
   int variable = -1;  ///< none: the number
   ExactNumber number;
@@ -40,11 +42,24 @@ struct VelocityTest {
   int rows() const { return columns > 0 ? static_cast<int>(matrix.size()) / columns : 0; }
 };
 
+/// A condition on two bodies: the distance of the convex hulls of their points is at least that.
+struct DistanceTest {
+  std::array<std::vector<std::array<MatrixEntry, 3>>, 2> hulls;  ///< points, one or more of each
+  ExactNumber least;                                             ///< positive
+};
+
+/// Distances that are kept all over boxes: what a test calls a variable is one of these functions of a system's variables.
+struct KeptDistances {
+  std::vector<Polynomial> functions;
+  std::vector<DistanceTest> tests;
+};
+
 /// All of its conditions.
 struct Requirement {
   std::string text;  ///< as it was asked for
   std::vector<VelocityTest> tests;
   std::optional<int> excess{};  ///< a variable of the system that is not to be positive
+  std::vector<DistanceTest> distances{};
 };
 
 }  // namespace corank

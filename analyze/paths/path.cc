@@ -226,7 +226,10 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
     path.status = Path::Status::separated;
     path.reason = "a determinant, or a factor of it, has opposite signs at the ends";
   } else if (!ends.state.inside || !goal.inside) {
-    path.reason = "an end is on the border of the ranges, the limits or the inequalities";
+    path.reason =
+        space_.distances().tests.empty()
+            ? "an end is on the border of the ranges, the limits or the inequalities"
+            : "an end is on the border of the ranges, the limits or the inequalities, or bodies are too near there";
   } else {
     const double step = std::max(1e-3, (ends.b - ends.a).norm() / 200);
     const double least = kNearBoundary * std::min(ends.state.margin, goal.margin);

@@ -4,11 +4,13 @@
 #include <algorithm>
 
 #include "corank/certify/inertia.h"
+#include "corank/core/closest_points.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/step/propagation.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/determinant_factors.h"
+#include "corank/symbolic/sets/requirements.h"
 #include "corank/symbolic/sets/velocity_blocks.h"
 
 namespace corank::analyze {
@@ -37,7 +39,10 @@ PathSpace::PathSpace(study::Question question, Avoid avoid, int most_with_factor
   const bool with_factors = dimension() <= most_with_factors && system_.parameters() == 0;
   using symbolic::SingularitySet;
   if (avoid == Avoid::requirements) {
-    add_matrix(SingularitySet::requirements, with_factors);
+    distances_ = symbolic::kept_distances(question_.model, equations_);
+    bodies_ = std::make_unique<certify::CompiledSystem>(system_, distances_.functions);
+    if (distances_.tests.empty() || !symbolic::without_distances(question_.model).requirements().empty())
+      add_matrix(SingularitySet::requirements, with_factors);
   } else {
     if (avoid != Avoid::inverse) add_matrix(SingularitySet::forward, with_factors);
     if (avoid != Avoid::forward) add_matrix(SingularitySet::inverse, with_factors);
@@ -95,7 +100,8 @@ PathSpace::Point PathSpace::middle(const Box& box) const {
 }
 
 void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
-  const std::optional<PolynomialMatrix> found = symbolic::locked_polynomials(question_.model, set);
+  const symbolic::Mechanism model = symbolic::without_distances(question_.model);
+  const std::optional<PolynomialMatrix> found = symbolic::locked_polynomials(model, set);
   if (!found)
     throw symbolic::ModelError({question_.model.name(), 0, 0}, "its velocity equation has sines of lengths",
                                "angles in sines and cosines");
@@ -113,7 +119,7 @@ void PathSpace::add_matrix(symbolic::SingularitySet set, bool with_factors) {
   if (!is_square(filled, m) || !with_factors || !is_small(m)) return;
   try {
     const std::vector<symbolic::Expression> factors =
-        symbolic::determinant_factors(question_.model, symbolic::locked_matrix(question_.model, set));
+        symbolic::determinant_factors(model, symbolic::locked_matrix(model, set));
     for (Polynomial& f : symbolic::polynomials(equations_, factors)) factors_.push_back(std::move(f));
     for (const symbolic::Expression& f : factors) factor_names_.push_back({of, f.text()});
   } catch (const symbolic::ModelError&) {
@@ -210,6 +216,21 @@ std::vector<double> PathSpace::value_rows(const std::vector<double>& x, int from
   return result;
 }
 
+double PathSpace::distance_margin(const std::vector<double>& x) const {
+  double margin = 1;
+  const UpwardRounding rounding;
+  const auto value = [&](const MatrixEntry& e) {
+    return e.variable < 0 ? e.number.enclose().mid() : bodies_->evaluate_at(bodies_->value_row(e.variable), x.data()).mid();
+  };
+  for (const DistanceTest& test : distances_.tests) {
+    PointsOfBodies hulls;
+    for (std::size_t b = 0; b < 2; ++b)
+      for (const auto& p : test.hulls[b]) hulls[b].push_back({value(p[0]), value(p[1]), value(p[2])});
+    margin = std::min(margin, closest_points(hulls).distance / test.least.enclose().mid() - 1);
+  }
+  return margin;
+}
+
 PathSpace::State PathSpace::state(const Point& x) const {
   State state;
   state.margin = 1;
@@ -228,7 +249,9 @@ PathSpace::State PathSpace::state(const Point& x) const {
   }
   const int factors = static_cast<int>(factors_.size());
   for (const double f : value_rows(at, compiled_->values() - factors, factors)) state.signs.push_back(f > 0 ? 1 : -1);
-  state.inside = true;
+  const double apart = distance_margin(at);
+  state.margin = std::min(state.margin, std::max(apart, 0.0));
+  state.inside = apart > 0;
   for (int j = 0; j < size() && state.inside; ++j) {
     const Variable& v = system_.variables[j];
     const double slack = v.kind == VariableKind::length ? 0 : 1e-9, value = at[j];

@@ -29,6 +29,9 @@ class PathSpace {
   const std::vector<PolynomialMatrix>& matrices() const { return matrices_; }
   const std::vector<int>& ranks() const { return ranks_; }
 
+  /// That a path keeps, where limits of requirements are avoided.
+  const KeptDistances& distances() const { return distances_; }
+
   /// Coordinate j is x_j / sizes()[j], so that distances do not depend on the unit of length.
   using Point = Eigen::VectorXd;
   /// Variable::size.
@@ -57,8 +60,10 @@ class PathSpace {
   Eigen::MatrixXd tangent(const Point& x) const;
   struct State {
     std::vector<int> signs;  ///< of determinants and of their factors
-    double margin = 0;       ///< least singular value of the weighted matrices, relative to their largest
-    bool inside = false;     ///< the domain and the inequalities
+    /// The least of: the least singular value of each weighted matrix, relative to its largest; by which share of it each
+    /// distance is more than it is to be.
+    double margin = 0;
+    bool inside = false;  ///< the domain and the inequalities, and bodies keep their distances
   };
   State state(const Point& x) const;
   /// May a way pass? Inside, on this side of the singularities, and with this margin at least.
@@ -66,6 +71,7 @@ class PathSpace {
 
  private:
   void add_matrix(symbolic::SingularitySet set, bool with_factors);
+  double distance_margin(const std::vector<double>& x) const;
   std::vector<double> value_rows(const std::vector<double>& x, int from, int count) const;
   void settle_sizes();
 
@@ -80,7 +86,9 @@ class PathSpace {
   std::vector<Polynomial> factors_;
   std::vector<SignFunction> factor_names_;
   std::unique_ptr<certify::CompiledSystem> compiled_;  // values: the matrices' entries, then the factors
-  std::vector<int> first_entry_;                       // of each matrix among the values
+  KeptDistances distances_;
+  std::unique_ptr<certify::CompiledSystem> bodies_;  // values: their functions
+  std::vector<int> first_entry_;                     // of each matrix among the values
   struct Weights {
     Eigen::VectorXd rows, columns;
   };

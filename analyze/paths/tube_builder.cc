@@ -25,7 +25,8 @@ Eigen::MatrixXd generic(Eigen::Index rows, Eigen::Index columns) {
 
 }  // namespace
 
-TubeBuilder::TubeBuilder(const PathSpace& space) : space_(space), prover_(space.system(), space.matrices(), space.ranks()) {}
+TubeBuilder::TubeBuilder(const PathSpace& space)
+    : space_(space), prover_(space.system(), space.matrices(), space.ranks(), space.distances()) {}
 
 // The rows of T follow each other along the path as nearly as tangent spaces allow: the rotation of the basis that is
 // nearest to the basis before, by the singular vectors of their products; of the first node to a generic one, so that

@@ -12,10 +12,15 @@ namespace corank::kinematics {
 using symbolic::CoordinateKind;
 using symbolic::ModelError;
 
+std::string Draft::identifier(const std::string& name) {
+  std::string result;
+  for (const char c : name) result += std::isalnum(static_cast<unsigned char>(c)) || c == '_' ? c : '_';
+  if (result.empty() || std::isdigit(static_cast<unsigned char>(result[0]))) result.insert(0, "_");
+  return result;
+}
+
 std::string Draft::free_name(const std::string& wanted) {
-  std::string name;
-  for (const char c : wanted) name += std::isalnum(static_cast<unsigned char>(c)) || c == '_' ? c : '_';
-  if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0]))) name.insert(0, "_");
+  std::string name = identifier(wanted);
   const auto taken = [&](const std::string& candidate) {
     return symbolic::is_reserved(candidate) || names_.contains(candidate) || algebra_.constants().contains(candidate);
   };

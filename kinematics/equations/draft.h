@@ -35,6 +35,8 @@ class Draft {
   /// Is e = 0 known to follow?
   bool follows(const ex& e) { return identities_ && identities_->imply(algebra_.clean(e)); }
 
+  /// With underscores for what is no letter or digit.
+  static std::string identifier(const std::string& name);
   /// Free names: `wanted`, or with underscores where that is taken or no name.
   std::string free_name(const std::string& wanted);
 
@@ -111,13 +113,15 @@ class Draft {
   void joint_value(const std::string& joint, const ex& cosine, const ex& sine) { values_.push_back({joint, cosine, sine}); }
   /// Returns the point's name, `wanted` or one like it.
   std::string point(const std::string& wanted, const Vec& at, const std::optional<Vec>& velocity, std::size_t dimension);
-  void part(symbolic::DrawingPart::Kind kind, const std::vector<std::string>& points, const Expression& radius = {},
-            const std::string& colour = "") {
+  /// `body`: the link or rod that it is a part of; empty: none.
+  void part(symbolic::DrawingPart::Kind kind, const std::vector<std::string>& points, const std::string& body = "",
+            const Expression& radius = {}, const std::string& colour = "") {
     symbolic::DrawingPart& part = parts_.emplace_back();
     part.kind = kind;
     part.points = points;
     part.radius = radius;
     part.colour = colour;
+    if (!body.empty()) part.name = identifier(body);
   }
 
   void input(const ex& coordinate) { inputs_.push_back(coordinate); }

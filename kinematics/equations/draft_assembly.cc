@@ -79,6 +79,7 @@ Assembly Draft::assembly() const {
     if (p.velocity && !velocity_.empty()) point.velocity = texts(*p.velocity, p.dimension);
   }
   mechanism.drawing(drawing);
+  for (const symbolic::RequirementLine& r : robot_.requirements) mechanism.require(r.text, r.where);
   const auto vector = [&](const Vec& v) {
     return Vector{text(algebra_.clean(v[0])), text(algebra_.clean(v[1])), text(algebra_.clean(v[2]))};
   };

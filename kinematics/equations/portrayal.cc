@@ -153,6 +153,7 @@ class Portrayal : Drafter {
     if (count == 0 || count > kMostShapes) return false;
     for (std::size_t l = 0; l < robot_.links.size(); ++l)
       for (const Shape& shape : robot_.links[l].shapes) {
+        const std::string& name = robot_.links[l].name;
         std::vector<std::string> names;
         for (const Vector& p : shape.points) {
           const Placement& at = bodies_.placement[l];
@@ -160,9 +161,10 @@ class Portrayal : Drafter {
           names.push_back(draft_.point("s", motion.at, {}, space_ == Space::planar ? 2 : 3));
         }
         switch (shape.kind) {
-          case Shape::Kind::sphere: draft_.part(Part::sphere, names, shape.radius, shape.colour); break;
-          case Shape::Kind::cylinder: draft_.part(Part::cylinder, names, shape.radius, shape.colour); break;
-          case Shape::Kind::polygon: draft_.part(names.size() < 3 ? Part::link : Part::platform, names, {}, shape.colour);
+          case Shape::Kind::sphere: draft_.part(Part::sphere, names, name, shape.radius, shape.colour); break;
+          case Shape::Kind::cylinder: draft_.part(Part::cylinder, names, name, shape.radius, shape.colour); break;
+          case Shape::Kind::polygon:
+            draft_.part(names.size() < 3 ? Part::link : Part::platform, names, name, {}, shape.colour);
         }
       }
     return true;
@@ -174,10 +176,11 @@ class Portrayal : Drafter {
       if (std::none_of(corners.begin(), corners.end(), [&](const Corner& other) { return other.name == c.name; }))
         corners.push_back(c);
     if (corners.size() < 2) return;
+    const std::string body_name = has_shapes(body) ? "" : name_of(body);  // what is drawn in their place is not the body
     if (corners.size() == 2) {
-      draft_.part(Part::link, {corners[0].name, corners[1].name});
+      draft_.part(Part::link, {corners[0].name, corners[1].name}, body_name);
     } else {
-      draft_.part(Part::platform, in_order(outer(corners)));
+      draft_.part(Part::platform, in_order(outer(corners)), body_name);
     }
   }
 
@@ -230,7 +233,7 @@ class Portrayal : Drafter {
       case JointKind::distance:
       case JointKind::distance_variable:
       case JointKind::universal_rod:
-        draft_.part(Part::link, {at, far});
+        draft_.part(Part::link, {at, far}, joint(j).name);
         for (const BodyEnd& end : j.ends)
           draft_.part(end.body == 0 ? Part::ground : Part::joint, {corner(end.body, local(end))});
         break;

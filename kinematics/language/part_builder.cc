@@ -195,6 +195,13 @@ void PartBuilder::include(const std::string& prefix_read) {
   std::tie(file, folder_, prefix_, text) = saved;
 }
 
+// Its names are those of the whole robot's coordinates, bodies and points.
+void PartBuilder::add_requirement(std::string line, const SourceLocation& where) {
+  if (!prefix_.empty()) return pass_over("requirements of an included file");
+  line.resize(line.find_last_not_of(" \t\r\n") + 1);
+  robot.requirements.push_back({std::move(line), where});
+}
+
 void PartBuilder::read_equations() {
   const std::string what = quoted_where.text() + ": the equations of " + in_quotes(quoted) + ": ";
   if (!folder_) {

@@ -205,6 +205,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   void begin_only(const SourceLocation& where);
   void finish_output();
   void include(const std::string& prefix_read);
+  void add_requirement(std::string line, const SourceLocation& where);
   void read_equations();
   void pass_over(const std::string& what);
 

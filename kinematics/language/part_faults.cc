@@ -24,8 +24,8 @@ const std::vector<std::string> kOptions{"range",  "limits",   "reference", "zero
 const std::vector<std::string> kLinkWords{"body",     "box",        "prism",  "sphere", "cylinder", "line",
                                           "segments", "decoration", "hidden", "point",  "mass",     "inertia"};
 const std::vector<std::string> kOutputs{"position", "orientation", "pose", "direction", "joint"};
-const std::vector<std::string> kSections{"CONSTANTS", "LINKS",   "JOINTS",    "DH",        "INPUTS",
-                                         "OUTPUTS",   "INCLUDE", "EQUATIONS", "OBSTACLES", "COLLISIONS"};
+const std::vector<std::string> kSections{"CONSTANTS", "LINKS",     "JOINTS",    "DH",         "INPUTS",      "OUTPUTS",
+                                         "INCLUDE",   "EQUATIONS", "OBSTACLES", "COLLISIONS", "REQUIREMENTS"};
 
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -106,8 +106,8 @@ void PartFault::unknown_part_section() const {
   title = first == std::string::npos ? "" : title.substr(first, last - first + 1);
   throw symbolic::ModelError(
       parts.section_where, "section [" + symbolic::shortened(title) + "] is unknown beside [LINKS]",
-      "[CONSTANTS], [LINKS], [JOINTS], [DH], [INPUTS], [OUTPUTS], [INCLUDE], [EQUATIONS], [OBSTACLES] or "
-      "[COLLISIONS]" +
+      "[CONSTANTS], [LINKS], [JOINTS], [DH], [INPUTS], [OUTPUTS], [REQUIREMENTS], [INCLUDE], [EQUATIONS], "
+      "[OBSTACLES] or [COLLISIONS]" +
           suggestion(title, kSections));
 }
 

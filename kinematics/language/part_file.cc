@@ -256,6 +256,7 @@ CORANK_ACTION0(include_file, {
   b.include(prefix);
 })
 CORANK_ACTION0(equation_file, { b.read_equations(); })
+CORANK_ACTION(model::requirement_line, { b.add_requirement(in.string(), place(in, b)); })
 CORANK_ACTION(input_name, { b.add_input(in.string_view(), place(in, b)); })
 CORANK_ACTION(output_name, {
   b.output = {};

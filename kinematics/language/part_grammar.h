@@ -1,4 +1,4 @@
-// The grammar of the parts language, in PEGTL rules: sections of links, joints, inputs, outputs and what is passed over.
+// The grammar of the parts language, in PEGTL rules: sections of links, joints, inputs, outputs, and what is passed over.
 // As in symbolic/model/model_grammar.h no rule that an action is attached to (part_file.cc) is ever taken back, and what has
 // to follow stands in must<>, whose failure is a fault (part_faults.h).
 //
@@ -347,6 +347,12 @@ struct input_name : long_name {};
 struct inputs_section
     : seq<inputs_header, gap, must<input_name>, star<gap, not_at<section_or_end>, opt<one<','>, gap>, must<input_name>>> {};
 
+// [REQUIREMENTS]  as in a model of equations
+struct requirements_header : header<any_case<"requirements">> {};
+struct requirements_section
+    : seq<requirements_header,
+          star<gap, not_at<section_or_end>, must<model::requirement_line>, must<model::requirement_line_end>>> {};
+
 // [OUTPUTS]  name : what of which
 struct output_name : simple_name {};
 struct output_link : long_name {};
@@ -382,9 +388,11 @@ struct output_what
 struct output : seq<must<output_name>, gap, must<colon>, gap, must<output_what>, output_end> {};
 struct outputs_section : seq<outputs_header, star<gap, not_at<section_or_end>, output>> {};
 
-struct section : seq<must<section_start>,
-                     sor<constants_section, links_section, joints_section, dh_section, obstacles_section, collisions_section,
-                         include_section, equations_section, inputs_section, outputs_section, unknown_section>> {};
+struct section
+    : seq<must<section_start>,
+          sor<constants_section, links_section, joints_section, dh_section, obstacles_section, collisions_section,
+              include_section, equations_section, inputs_section, outputs_section, requirements_section, unknown_section>> {
+};
 struct parts : seq<opt<utf8::bom>, gap, star<not_at<eof>, section, gap>, must<file_end>> {};
 
 #undef CORANK_WORD

@@ -27,7 +27,7 @@ struct Pose {
   Vector translation{0, 0, 0};
 };
 
-/// What a report draws of a link. It proves nothing.
+/// What a report draws of a link. Nothing rests on it but requirements of distances.
 struct Shape {
   enum class Kind { sphere, cylinder, polygon };  ///< a polygon of two corners is a line
   Kind kind = Kind::sphere;
@@ -161,6 +161,8 @@ struct Robot {
   std::vector<Output> outputs;
   /// Further conditions among the coordinates of mechanism_of(), by their names there.
   std::vector<symbolic::Constraint> equations;
+  /// In the names of mechanism_of(): its coordinates and rates, and the bodies and points of its drawing.
+  std::vector<symbolic::RequirementLine> requirements;
   /// What a reader passed over, one sentence each: "dynamics (mass, inertia), 6 times".
   std::vector<std::string> notices;
   /// What is part of the robot but could not be read, one for each with file and line: "a.world:7: the equations of

@@ -1,5 +1,6 @@
 // The file of a path.
 #include "corank/result/files/source_group.h"
+#include "corank/symbolic/sets/requirements.h"
 #include "corank/symbolic/sets/velocity_blocks.h"
 
 namespace corank::result {
@@ -72,22 +73,29 @@ PathFile read_path(const std::filesystem::path& path) {
 
 check::TubeReport verify(const PathFile& file, const check::Options& options) {
   const symbolic::Mechanism model = model_of(file);
-  const System system = symbolic::algebrize(symbolic::singularity_system(model, symbolic::SingularitySet::cspace));
+  const symbolic::TrigonometricSystem space = symbolic::singularity_system(model, symbolic::SingularitySet::cspace);
+  const System system = symbolic::algebrize(space);
   check::TubeReport report;
   if (names(system) != file.variables) {
     report.failures.emplace_back("its variables are not those of the model");
     return report;
   }
   std::vector<PolynomialMatrix> matrices;
+  KeptDistances distances;
+  const symbolic::Mechanism others = symbolic::without_distances(model);
   for (const symbolic::SingularitySet set : avoided_sets(file.avoid)) {
-    std::optional<PolynomialMatrix> matrix = symbolic::locked_polynomials(model, set);
+    if (set == symbolic::SingularitySet::requirements) {
+      distances = symbolic::kept_distances(model, space);
+      if (!distances.tests.empty() && others.requirements().empty()) continue;
+    }
+    std::optional<PolynomialMatrix> matrix = symbolic::locked_polynomials(others, set);
     if (!matrix) {
       report.failures.emplace_back("the model's velocity equation is not a matrix of polynomials");
       return report;
     }
     matrices.push_back(std::move(*matrix));
   }
-  return check::check_tube(system, matrices, file.tube, options);
+  return check::check_tube(system, matrices, file.tube, options, distances);
 }
 
 std::string to_table(const check::TubeReport& report, const PathFile& file) {

@@ -13,7 +13,7 @@ struct KindOfPart {
   DrawingPart::Kind kind;
   const char* word;
   std::size_t fewest;  // points
-  bool may_be_coloured = false;
+  bool is_solid = false;
   const char* form = nullptr;  // the statement, of a part that has exactly as many points
 };
 
@@ -38,9 +38,15 @@ void validate_colour(const DrawingPart& part) {
   const bool is_colour =
       colour.size() == 7 && colour[0] == '#' && colour.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
   if (!is_colour) throw ModelError(part.where, in_quotes(colour) + " is not a colour", "#rrggbb, in hexadecimal digits");
-  if (row_of(part.kind).may_be_coloured) return;
+  if (row_of(part.kind).is_solid) return;
   throw ModelError(part.where, std::string("a ") + to_string(part.kind) + " has no colour of its own",
                    "a colour after a link, platform, sphere or cylinder only");
+}
+
+void validate_name(const DrawingPart& part) {
+  if (part.name.empty() || row_of(part.kind).is_solid) return;
+  throw ModelError(part.where, std::string("a ") + to_string(part.kind) + " is no body that has a name",
+                   "a name before the points of a link, platform, sphere or cylinder only");
 }
 
 void validate(const DrawingPart& part, const std::set<std::string>& known) {
@@ -58,6 +64,7 @@ void validate(const DrawingPart& part, const std::set<std::string>& known) {
     throw ModelError(part.where, "the " + kind + " has " + counted(part.points.size(), "point"),
                      row.form ? row.form : counted(row.fewest, "point") + " or more");
   validate_colour(part);
+  validate_name(part);
 }
 
 }  // namespace

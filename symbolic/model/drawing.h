@@ -1,7 +1,8 @@
 // What a report draws for a configuration q: points P(q) ∈ R² or R³, given by expressions in constants and coordinates, and
 // parts (links, platforms, joints …) that hang on them. [DRAWING] of a model file; doc/model_language.md describes it.
 //
-// A drawing proves nothing and no proof depends on it.
+// A drawing proves nothing. The only statements that rest on it are requirements, which may ask for the distance of bodies
+// that it names, and take units from it.
 #pragma once
 
 #include <string>
@@ -39,6 +40,7 @@ struct DrawingPart {
   SourceLocation where;
   Expression radius{};   ///< of a sphere or cylinder: constants, not negative; in the model's unit of length
   std::string colour{};  ///< of a link, platform, sphere or cylinder: "#rrggbb"; empty: the picture's own
+  std::string name{};    ///< likewise: of the body that this is, or of which it is a part; empty: nothing asks for it
 
   bool has_radius() const { return kind == Kind::sphere || kind == Kind::cylinder; }
 };
@@ -58,8 +60,8 @@ struct Drawing {
   int find(const std::string& point) const;
   /// Throws ModelError, with the place, for: a point named twice, with one or more than three coordinates, or with another
   /// number of them than the first, or a velocity with another number; a part with an unknown point, a point twice, too few
-  /// or too many; a hinge in the plane; a colour that is none, or of a part that has none. Radii are the matter of
-  /// Mechanism::validate().
+  /// or too many; a hinge in the plane; a colour that is none, or of a part that has none; a name likewise. Radii are the
+  /// matter of Mechanism::validate().
   void validate() const;
 };
 

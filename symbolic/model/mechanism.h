@@ -189,6 +189,7 @@ class Mechanism {
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<std::string>& outputs() const { return outputs_; }
   void clear_limits() { limits_.clear(); }
+  void keep_requirements(std::vector<RequirementLine> lines) { requirements_ = std::move(lines); }
   /// As declared; which of them are limits of a configuration, limits.h says.
   const std::vector<Limit>& limits() const { return limits_; }
   /// Both empty where L is the derivative of the constraints.

@@ -88,6 +88,7 @@ CORANK_ACTION(hinge_word, { begin_part(in, b); })
 CORANK_ACTION(sphere_word, { begin_part(in, b); })
 CORANK_ACTION(cylinder_word, { begin_part(in, b); })
 CORANK_ACTION(part_word, { begin_part(in, b); })
+CORANK_ACTION(part_name, { b.drawing.parts.back().name = in.string(); })
 CORANK_ACTION(part_point, { b.drawing.parts.back().points.push_back(in.string()); })
 CORANK_ACTION0(part_radius, {
   b.drawing.parts.back().radius = b.values.at(0);

@@ -199,7 +199,7 @@ struct names : seq<gap, must<listed_name>, star<gap, sor<if_must<one<','>, gap, 
 struct names_section : seq<sor<inputs_header, outputs_header>, names> {};
 
 // [DRAWING]  point P = (x, y), also with moves (u, v) behind it, or another word and the names of points, a radius, a
-// colour; each ends with its line.
+// colour; each ends with its line. A body's name and = may stand before its points.
 struct point_word : word<exactly<"point">> {};
 struct unit_word : word<exactly<"unit">> {};
 struct slider_word : word<exactly<"slider">> {};
@@ -233,13 +233,16 @@ struct drawing_point : seq<point_word, line_gap, must<point_name>, line_gap, mus
                            gap, expression<gap>, gap, must<point_comma>, gap, expression<gap>, gap, opt<third_coordinate>,
                            must<point_close>, opt<line_gap, point_velocity>, point_end> {};
 struct drawing_unit : seq<unit_word, line_gap, must<unit_name>> {};
+struct part_name : identifier {};
+struct named : opt<at<identifier, line_gap, one<'='>>, part_name, line_gap, one<'='>, line_gap> {};
 struct drawing_slider : seq<slider_word, line_gap, must<part_point>, line_gap, must<along_word>, line_gap, must<part_point>,
                             line_gap, must<part_point>> {};
 struct drawing_hinge : seq<hinge_word, line_gap, must<part_point>, line_gap, must<part_point>> {};
 struct drawing_radius : seq<line_gap, must<radius_word>, line_gap, expression<line_gap>, part_radius> {};
-struct drawing_sphere : seq<sphere_word, line_gap, must<part_point>, drawing_radius> {};
-struct drawing_cylinder : seq<cylinder_word, line_gap, must<part_point>, line_gap, must<part_point>, drawing_radius> {};
-struct drawing_part : seq<part_word, line_gap, must<part_point>, star<line_gap, part_point>> {};
+struct drawing_sphere : seq<sphere_word, line_gap, named, must<part_point>, drawing_radius> {};
+struct drawing_cylinder : seq<cylinder_word, line_gap, named, must<part_point>, line_gap, must<part_point>, drawing_radius> {
+};
+struct drawing_part : seq<part_word, line_gap, named, must<part_point>, star<line_gap, part_point>> {};
 struct drawing_statement
     : sor<drawing_point, drawing_unit,
           seq<sor<drawing_slider, drawing_hinge, drawing_sphere, drawing_cylinder, drawing_part>, opt<colour>>> {};

@@ -15,6 +15,7 @@ namespace grammar {
 struct requirement_open : one<'('> {};
 struct requirement_close : one<')'> {};
 struct at_most : string<'<', '='> {};
+struct at_least : string<'>', '='> {};
 struct within : sor<at_most, string<'+', '-'>, string<'\xC2', '\xB1'>> {};
 struct quantity_colon : one<':'> {};
 
@@ -56,6 +57,25 @@ struct input_error : seq<must<input_name>, gap, must<within>, gap, quantity> {};
 struct error_limit : seq<error_word, gap, rate_names, gap, must<at_most>, gap, quantity, gap, must<under_word>, gap,
                          input_error, star<gap, one<','>, gap, input_error>> {};
 
+struct distance_word : word<exactly<"distance">> {};
+struct radius_of_body : word<exactly<"radius">> {};
+struct body_point : identifier {};
+struct body_comma : one<','> {};
+struct body_close : one<')'> {};
+struct body_end : success {};
+struct body_names : seq<must<body_point>, star<gap, not_at<radius_of_body>, body_point>> {};
+struct body_of_distance : seq<body_names, opt<gap, radius_of_body, gap, quantity>, body_end> {};
+struct distance : seq<distance_word, gap, must<requirement_open>, gap, body_of_distance, gap, must<body_comma>, gap,
+                      body_of_distance, gap, must<body_close>, gap, must<at_least>, gap, quantity> {};
+
+struct pressure_angle_word : word<exactly<"pressure_angle">> {};
+struct transmission_angle_word : word<exactly<"transmission_angle">> {};
+struct angle_points : seq<body_names, body_end> {};
+struct pressure_angle : seq<pressure_angle_word, gap, must<requirement_open>, gap, angle_points, gap, must<body_comma>, gap,
+                            angle_points, gap, must<body_close>, gap, must<at_most>, gap, quantity> {};
+struct transmission_angle : seq<transmission_angle_word, gap, must<requirement_open>, gap, angle_points, gap,
+                                must<body_close>, gap, must<at_least>, gap, quantity> {};
+
 struct comparison_sign : sor<string<'<', '='>, string<'>', '='>> {};
 struct comparison : seq<expression<gap>, gap, must<comparison_sign>, gap, expression<gap>> {};
 
@@ -65,7 +85,9 @@ template <typename Word>
 struct begins : at<Word, gap, one<'('>> {};
 struct requirement : seq<gap,
                          sor<seq<begins<amplification_word>, amplification>, seq<begins<effort_word>, effort>,
-                             seq<begins<error_word>, error_limit>, comparison>,
+                             seq<begins<error_word>, error_limit>, seq<begins<distance_word>, distance>,
+                             seq<begins<pressure_angle_word>, pressure_angle>,
+                             seq<begins<transmission_angle_word>, transmission_angle>, comparison>,
                          gap, must<requirement_end>> {};
 
 }  // namespace grammar
@@ -139,6 +161,22 @@ CORANK_ACTION(load_word, { b.moment = in.string_view() == "moment"; })
 CORANK_ACTION0(load_end, { std::get<EffortLimit>(b.out.limit).loads.push_back({b.moment, b.names, b.take()}); })
 CORANK_ACTION(input_name, { b.item = in.string(); })
 CORANK_ACTION0(input_error, { std::get<ErrorLimit>(b.out.limit).inputs.push_back({b.item, b.take()}); })
+CORANK_ACTION0(distance_word, { b.out.limit = DistanceLimit(); })
+CORANK_ACTION(body_point, { b.names.push_back(in.string()); })
+CORANK_ACTION0(body_end, {
+  std::vector<std::string> names = std::exchange(b.names, {});
+  if (auto* angle = std::get_if<LineAngleLimit>(&b.out.limit)) {
+    angle->points.push_back(std::move(names));
+  } else {
+    auto& body = std::get<DistanceLimit>(b.out.limit).bodies.emplace_back(DistanceLimit::Body{std::move(names)});
+    if (!b.quantities.empty()) body.radius = b.take();
+  }
+})
+CORANK_ACTION0(distance, { std::get<DistanceLimit>(b.out.limit).least = b.take(); })
+CORANK_ACTION0(pressure_angle_word, { b.out.limit = LineAngleLimit(); })
+CORANK_ACTION0(transmission_angle_word, { b.out.limit = LineAngleLimit{.points = {}, .least = true, .limit = {}}; })
+CORANK_ACTION0(pressure_angle, { std::get<LineAngleLimit>(b.out.limit).limit = b.take(); })
+CORANK_ACTION0(transmission_angle, { std::get<LineAngleLimit>(b.out.limit).limit = b.take(); })
 CORANK_ACTION(comparison_sign,
               { b.relation = *in.begin() == '<' ? Relation::Kind::less_equal : Relation::Kind::greater_equal; })
 CORANK_ACTION0(comparison, { b.out.limit = Relation{b.values.at(0), b.relation, b.values.at(1)}; })
@@ -157,6 +195,10 @@ CORANK_FAULT(requirement_close, "',' or ')' after the name")
 CORANK_FAULT(rate_list_name, "the name of a coordinate or of a rate")
 CORANK_FAULT(role_name, "outputs or inputs")
 CORANK_FAULT(at_most, "'<=' and a number")
+CORANK_FAULT(at_least, "'>=' and a number")
+CORANK_FAULT(body_point, "the name of a body, or names of points")
+CORANK_FAULT(body_comma, "a point, radius, or ',' and what is compared with it")
+CORANK_FAULT(body_close, "')' behind the points")
 CORANK_FAULT(within, "'<=' or '±' and a number")
 CORANK_FAULT(metric_name, "the name of an input or an output")
 CORANK_FAULT(quantity_colon, "':' and a number after the name")

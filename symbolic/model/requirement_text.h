@@ -3,9 +3,14 @@
 //   amplification(inputs) <= 3 metric x: 1 mm, phi: 1 deg
 //   torque(theta2) <= 3 N m under force(x, y) <= 50 N, moment(phi) <= 2 N m
 //   error(x, y) <= 0.1 mm under inputs <= 0.01 deg
+//   distance(A B radius 3 mm, rod) >= 5 mm
+//   pressure_angle(A B, P Q) <= 45 deg
+//   transmission_angle(A B C) >= 45 deg
 //   x^2 + y^2 <= 4
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,8 +60,27 @@ struct ErrorLimit {
   std::vector<NamedQuantity> inputs;  ///< the name "inputs" stands for all of them
 };
 
+/// The least distance of two bodies of the drawing (drawn_bodies.h).
+struct DistanceLimit {
+  struct Body {
+    std::vector<std::string> names;    ///< of points whose hull it is, or its own
+    std::optional<Quantity> radius{};  ///< around that
+  };
+  std::vector<Body> bodies;  ///< two
+  Quantity least;
+};
+
+/// The largest angle between two lines through two points of the drawing each, from 0 to 90 degrees: one along which a force
+/// acts, and one along which the point moves that it drives. least: the angle at the middle of three points is at least that
+/// far from 0 and from 180 degrees.
+struct LineAngleLimit {
+  std::vector<std::vector<std::string>> points;
+  bool least = false;
+  Quantity limit;
+};
+
 struct RequirementText {
-  std::variant<AmplificationLimit, EffortLimit, ErrorLimit, Relation> limit;
+  std::variant<AmplificationLimit, EffortLimit, ErrorLimit, DistanceLimit, LineAngleLimit, Relation> limit;
 };
 
 /// `begin`: where the text does. Throws ModelError, with the place, where the text is no requirement.

@@ -31,6 +31,7 @@ class Builder {
     RequirementTranslator translator(mechanism_, {});
     for (const RequirementLine& line : mechanism_.requirements()) {
       const Conditions conditions = translator.run(line);
+      refuse_distances(line, conditions);
       for (const VelocityCondition& c : conditions.of_velocities) add(line, as_form(line, c));
       if (conditions.excess) add(line, -*conditions.excess);
     }

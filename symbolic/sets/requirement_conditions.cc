@@ -7,37 +7,13 @@
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/model/requirement_text.h"
+#include "corank/symbolic/sets/drawn_bodies.h"
+#include "corank/symbolic/sets/requirement_units.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
 #include "corank/symbolic/velocity/velocity_equation.h"
 
 namespace corank::symbolic {
 namespace {
-
-enum class Dimension { number, length, angle, force, moment };
-
-const char* word(Dimension dimension) {
-  static constexpr std::array kWords{"a number", "a length", "an angle", "a force", "a moment"};
-  return kWords[static_cast<std::size_t>(dimension)];
-}
-
-// In metres, radians, newtons, newton metres.
-struct Unit {
-  const char* name;
-  Dimension dimension;
-  const char* size;
-};
-constexpr std::array kLengths{Unit{"um", Dimension::length, "1e-6"}, Unit{"mm", Dimension::length, "1e-3"},
-                              Unit{"cm", Dimension::length, "1e-2"}, Unit{"dm", Dimension::length, "1e-1"},
-                              Unit{"m", Dimension::length, "1"}};
-constexpr std::array kOthers{Unit{"rad", Dimension::angle, "1"},      Unit{"mrad", Dimension::angle, "1e-3"},
-                             Unit{"deg", Dimension::angle, "pi/180"}, Unit{"N", Dimension::force, "1"},
-                             Unit{"kN", Dimension::force, "1e3"},     Unit{"mN", Dimension::force, "1e-3"}};
-
-template <std::size_t n>
-const Unit* find(const std::array<Unit, n>& units, const std::string& name) {
-  const auto found = std::ranges::find(units, name, &Unit::name);
-  return found == units.end() ? nullptr : &*found;
-}
 
 constexpr std::size_t kMostInputs = 8;  // of an error: half as many corners as 2 to that
 
@@ -51,7 +27,11 @@ class RequirementTranslator::Translator {
   Conditions run(const RequirementLine& line) {
     line_ = &line;
     Conditions out;
-    std::visit([&](const auto& limit) { add(limit, out); }, parse_requirement(line.text, line.where).limit);
+    try {
+      std::visit([&](const auto& limit) { add(limit, out); }, parse_requirement(line.text, line.where).limit);
+    } catch (const RequirementFault& fault) {
+      refuse(fault.what(), fault.expectation);
+    }
     return out;
   }
 
@@ -119,42 +99,14 @@ class RequirementTranslator::Translator {
                                [&](const Constant& c) { return e.mentions(c.name) && depends_on_parameter(c.value); });
   }
 
-  // How many of the model's units one of these is.
-  Expression factor(const std::string& unit, Dimension wanted) const {
-    const auto length = [&](const Unit& u) -> Expression {
-      const std::string& own = mechanism_.drawing().unit;
-      const Unit* model = find(kLengths, own);
-      if (!model)
-        refuse(own.empty() ? "the model has no unit of lengths" : "the model's unit of lengths is " + own,
-               "a model with a line such as `unit mm`, or limits without a unit of length");
-      return Expression(u.size) / Expression(model->size);
-    };
-    const auto check = [&](Dimension d) {
-      if (d != wanted) refuse(unit + " is the unit of " + word(d), std::string("the unit of ") + word(wanted));
-    };
-    if (const Unit* u = find(kLengths, unit)) {
-      check(Dimension::length);
-      return length(*u);
-    }
-    if (const Unit* u = find(kOthers, unit)) {
-      check(u->dimension);
-      return u->size;
-    }
-    check(Dimension::moment);
-    const std::size_t blank = unit.find(' ');
-    const Unit* const force = find(kOthers, unit.substr(0, blank));
-    const Unit* const arm = find(kLengths, unit.substr(blank + 1));
-    CORANK_CHECK(force && arm);  // the grammar knows no other
-    return Expression(force->size) * length(*arm);
-  }
-
   Expression in_model_units(const Quantity& quantity, Dimension wanted) const {
     if (depends_on_parameter(quantity.value))
       refuse(quantity.value.text() + " depends on a parameter", "limits that keep their values");
     if (const std::string name = mechanism_.toleranced_in(quantity.value); !name.empty())
       refuse(quantity.value.text() + " depends on " + in_quotes(name) + ", which is known within a tolerance only",
              "limits that are exact");
-    return quantity.unit.empty() ? quantity.value : quantity.value * factor(quantity.unit, wanted);
+    return quantity.unit.empty() ? quantity.value
+                                 : quantity.value * size_of_unit(quantity.unit, wanted, mechanism_.drawing().unit);
   }
   const Expression& checked(const Expression& e, int least_sign) const {
     if (exact_value(mechanism_, e, e.text()).sign().value_or(-1) < least_sign)
@@ -287,6 +239,52 @@ class RequirementTranslator::Translator {
     }
   }
 
+  void add(const DistanceLimit& limit, Conditions& out) const {
+    const Expression wanted = checked(in_model_units(limit.least, Dimension::length), 0);
+    std::array<std::vector<RoundedHull>, 2> bodies;
+    for (std::size_t b = 0; b < 2; ++b) {
+      bodies[b] = drawn_body(mechanism_.drawing(), limit.bodies[b].names);
+      if (const std::optional<Quantity>& radius = limit.bodies[b].radius)
+        for (RoundedHull& hull : bodies[b])
+          hull.radius = hull.radius + checked(in_model_units(*radius, Dimension::length), 0);
+    }
+    for (const RoundedHull& a : bodies[0])
+      for (const RoundedHull& b : bodies[1])
+        out.of_distances.push_back({{a.points, b.points}, positive({wanted + a.radius + b.radius}, Dimension::length)});
+  }
+
+  // cos² of the angle, or of the limit where it is the other way round, is at most the other one. ‖u‖²‖v‖² is on both sides.
+  void add(const LineAngleLimit& limit, Conditions& out) const {
+    std::vector<std::array<Expression, 3>> lines;
+    const auto add_line = [&](const std::string& from, const std::string& to) {
+      const auto a = drawn_point(mechanism_.drawing(), from), b = drawn_point(mechanism_.drawing(), to);
+      lines.push_back({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+    };
+    if (limit.least) {
+      const std::vector<std::string>& p = limit.points[0];
+      if (p.size() != 3) refuse("it has " + counted(p.size(), "point"), "three, the angle's vertex in the middle");
+      add_line(p[1], p[0]);
+      add_line(p[1], p[2]);
+    } else {
+      for (const std::vector<std::string>& p : limit.points) {
+        if (p.size() != 2) refuse("a line has " + counted(p.size(), "point"), "two");
+        add_line(p[0], p[1]);
+      }
+    }
+    const Expression angle = positive(limit.limit, Dimension::angle);
+    if (exact_value(mechanism_, pi() / Expression(2) - angle, limit.limit.value.text()).sign().value_or(-1) <= 0)
+      refuse(limit.limit.value.text() + " is not below 90 degrees", "an angle between 0 and 90 deg");
+    const auto dot = [](const std::array<Expression, 3>& u, const std::array<Expression, 3>& v) {
+      std::vector<Expression> terms;
+      for (std::size_t i = 0; i < 3; ++i)
+        if (!same_tree(u[i], 0) && !same_tree(v[i], 0)) terms.push_back(times(u[i], v[i]));
+      return terms.empty() ? Expression(0) : sum_of(terms);
+    };
+    const Expression along = pow(dot(lines[0], lines[1]), 2);
+    const Expression all = pow(Expression::function("cos", angle), 2) * dot(lines[0], lines[0]) * dot(lines[1], lines[1]);
+    out.excess = limit.least ? along - all : all - along;
+  }
+
   void add(const Relation& relation, Conditions& out) const {
     const bool at_most = relation.kind == Relation::Kind::less_equal;
     out.excess = at_most ? relation.lhs - relation.rhs : relation.rhs - relation.lhs;
@@ -323,6 +321,13 @@ class RequirementTranslator::Translator {
   const RequirementLine* line_ = nullptr;
   ExpressionMatrix velocity_;
 };
+
+void refuse_distances(const RequirementLine& line, const Conditions& conditions) {
+  if (!conditions.of_distances.empty())
+    throw ModelError(line.where,
+                     "the requirement " + in_quotes(line.text) + " is one of a distance, whose limit is no single equation",
+                     "corank map, or other requirements");
+}
 
 VelocityCondition as_form(const RequirementLine& line, VelocityCondition c) {
   if (!c.form.empty()) return c;

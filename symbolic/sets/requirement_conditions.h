@@ -2,6 +2,7 @@
 // variables of a system, or into the matrix of its limit (requirements.h).
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,11 +28,21 @@ struct VelocityCondition {
 /// The same condition as a form on a line: of one load. Throws ModelError where there are several.
 VelocityCondition as_form(const RequirementLine& line, VelocityCondition condition);
 
-/// A requirement: conditions on velocities, or a function that is not to be positive.
+/// A condition on a distance of hulls: that of DistanceTest.
+struct DistanceCondition {
+  std::array<std::vector<std::array<Expression, 3>>, 2> hulls;
+  Expression least;
+};
+
+/// A requirement: conditions on velocities, a function that is not to be positive, or distances.
 struct Conditions {
   std::vector<VelocityCondition> of_velocities;
   std::optional<Expression> excess{};
+  std::vector<DistanceCondition> of_distances{};
 };
+
+/// Throws ModelError for a distance: its limit is no zero of determinants, for what is nearest to what changes.
+void refuse_distances(const RequirementLine& line, const Conditions& conditions);
 
 /// One requirement after the other, of one mechanism, whose velocity equation is derived once.
 class RequirementTranslator {

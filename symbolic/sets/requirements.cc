@@ -1,15 +1,23 @@
 #include "corank/symbolic/sets/requirements.h"
 
 #include <algorithm>
+#include <iterator>
+#include <variant>
 
 #include "corank/core/check.h"
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/model/expression_words.h"
+#include "corank/symbolic/model/requirement_text.h"
+#include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/requirement_conditions.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
 
 namespace corank::symbolic {
 namespace {
+
+bool is_of_distance(const RequirementLine& line) {
+  return std::holds_alternative<DistanceLimit>(parse_requirement(line.text, line.where).limit);
+}
 
 // Builds at_requirements().
 class LimitMechanism {
@@ -23,6 +31,7 @@ class LimitMechanism {
     RequirementTranslator translator(mechanism_, {});
     for (const RequirementLine& line : mechanism_.requirements()) {
       const Conditions conditions = translator.run(line);
+      refuse_distances(line, conditions);
       for (const VelocityCondition& c : conditions.of_velocities) add(line, as_form(line, c));
       if (conditions.excess)
         out_.velocity(times(*conditions.excess, rate(CoordinateKind::length)) == Expression(0), line.where);
@@ -73,10 +82,10 @@ class LimitMechanism {
 
 }  // namespace
 
-MatrixEntry Requirements::entry(const Mechanism& mechanism, const Expression& e) {
+MatrixEntry Requirements::entry(const Mechanism& mechanism, const Expression& e, const std::string& source) {
   const bool negated = e.kind() == Expression::Kind::negation;
   if ((negated ? e.operands()[0] : e).kind() == Expression::Kind::number) return {-1, exact_value(mechanism, e, e.text())};
-  return {function(mechanism, e, "velocity equation"), {}};
+  return {function(mechanism, e, source), {}};
 }
 
 int Requirements::function(const Mechanism& mechanism, const Expression& value, const std::string& source) {
@@ -99,10 +108,19 @@ Requirements::Requirements(const Mechanism& mechanism, const std::vector<std::st
       VelocityTest& test = r.tests.emplace_back();
       test.columns = static_cast<int>(c.kinds.size());
       for (const std::vector<Expression>& row : c.rows)
-        for (const Expression& e : row) test.matrix.push_back(entry(mechanism, e));
+        for (const Expression& e : row) test.matrix.push_back(entry(mechanism, e, "velocity equation"));
       for (const Expression& e : c.form) test.form.push_back(exact(e));
       for (const VelocityCondition::Group& g : c.groups) test.groups.push_back({g.columns, exact(g.weight)});
       if (c.form.empty()) test.bound = exact(c.bound);
+    }
+    for (const DistanceCondition& c : conditions.of_distances) {
+      DistanceTest& test = r.distances.emplace_back();
+      for (std::size_t b = 0; b < 2; ++b)
+        for (const std::array<Expression, 3>& p : c.hulls[b]) {
+          std::array<MatrixEntry, 3>& entries = test.hulls[b].emplace_back();
+          for (std::size_t i = 0; i < 3; ++i) entries[i] = entry(mechanism, p[i], "point");
+        }
+      test.least = exact(c.least);
     }
   }
 }
@@ -130,12 +148,40 @@ std::vector<Requirement> Requirements::in(const System& system) const {
     CORANK_CHECK(found >= 0);
     return found;
   };
+  const auto replace = [&](MatrixEntry& e) {
+    if (e.variable >= 0) e.variable = variable(e.variable);
+  };
   for (Requirement& r : result) {
     if (r.excess) r.excess = variable(*r.excess);
     for (VelocityTest& test : r.tests)
-      for (MatrixEntry& e : test.matrix)
-        if (e.variable >= 0) e.variable = variable(e.variable);
+      for (MatrixEntry& e : test.matrix) replace(e);
+    for (DistanceTest& test : r.distances)
+      for (auto& hull : test.hulls)
+        for (auto& p : hull)
+          for (MatrixEntry& e : p) replace(e);
   }
+  return result;
+}
+
+Mechanism with_distances_alone(Mechanism mechanism) {
+  std::vector<RequirementLine> lines;
+  std::ranges::copy_if(mechanism.requirements(), std::back_inserter(lines), is_of_distance);
+  mechanism.keep_requirements(std::move(lines));
+  return mechanism;
+}
+
+Mechanism without_distances(Mechanism mechanism) {
+  std::vector<RequirementLine> lines;
+  std::ranges::remove_copy_if(mechanism.requirements(), std::back_inserter(lines), is_of_distance);
+  mechanism.keep_requirements(std::move(lines));
+  return mechanism;
+}
+
+KeptDistances kept_distances(const Mechanism& mechanism, const TrigonometricSystem& space) {
+  const Requirements requirements(with_distances_alone(mechanism));
+  KeptDistances result{polynomials(space, requirements.functions()), {}};
+  for (const Requirement& r : requirements.of_functions())
+    result.tests.insert(result.tests.end(), r.distances.begin(), r.distances.end());
   return result;
 }
 

@@ -40,11 +40,18 @@ class Requirements {
     std::string source;
   };
   int function(const Mechanism& mechanism, const Expression& value, const std::string& source);
-  MatrixEntry entry(const Mechanism& mechanism, const Expression& value);
+  MatrixEntry entry(const Mechanism& mechanism, const Expression& value, const std::string& source);
 
   std::vector<Function> functions_;
   std::vector<Requirement> requirements_;
 };
+
+/// The same with its requirements of distances alone, or with all others.
+Mechanism with_distances_alone(Mechanism mechanism);
+Mechanism without_distances(Mechanism mechanism);
+
+/// What requirements of distances keep, in the variables of algebrize(space), a system of the mechanism's.
+KeptDistances kept_distances(const Mechanism& mechanism, const TrigonometricSystem& space);
 
 /// A mechanism with the same configurations and a velocity equation of its own, whose forward singularities are the
 /// configurations at which a requirement reaches its limit. Its matrix without inputs is square, a block for each condition:

@@ -127,6 +127,7 @@ class Writer {
                         (p.velocity.empty() ? "" : " moves " + place(p.velocity)));
     for (const DrawingPart& part : drawing.parts) {
       std::vector<std::string> words{to_string(part.kind)};
+      if (!part.name.empty()) words.push_back(part.name + " =");
       words.insert(words.end(), part.points.begin(), part.points.end());
       if (part.kind == DrawingPart::Kind::slider) words.insert(words.begin() + 2, "along");
       if (part.has_radius()) words.push_back("radius " + part.radius.text());

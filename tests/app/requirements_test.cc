@@ -134,6 +134,55 @@ TEST(RequirementCommands, DivideAspects) {
   EXPECT_THAT(cusps.err, HasSubstr("cusps are asked for, and requirements are there"));
 }
 
+const char* const kApart = "distance(J5 J4 radius 5 mm, J2 J3 radius 5 mm) >= 0";
+
+TEST(RequirementCommands, KeepBodiesApartAllOverCells) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("m.h5");
+  const auto run = run_corank({"map", model("dextar"), "--over", "J3x=0:1.2", "--over", "J3y=1/10:1.3", "--resolution", "32",
+                               "--require", kApart, "-o", file});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out,
+              HasSubstr("\n  required              distance(J5 J4 radius 5 mm, J2 J3 radius 5 mm) >= 0\n  satisfied"));
+  EXPECT_THAT(run_corank({"verify", file}).out, HasSubstr("\nverified"));
+}
+
+TEST(RequirementCommands, RefuseDistancesWhereTheirLimitsAreAsked) {
+  const auto refusal = [](std::vector<std::string> command) {
+    command.insert(command.end(), {"--require", kApart});
+    const auto run = run_corank(command);
+    EXPECT_EQ(run.status, 1) << run.out;
+    return run.err;
+  };
+  const char* const said = "is one of a distance, whose limit is no single equation; expected corank map";
+  EXPECT_THAT(refusal({"solve", model("dextar"), "--set", "requirements"}), HasSubstr(said));
+  EXPECT_THAT(refusal({"aspects", model("dextar")}), HasSubstr(said));
+  EXPECT_THAT(refusal({"clearance", model("dextar"), "--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y"}), HasSubstr(said));
+}
+
+// The bodies of a robot from parts are its links, with their shapes, and its rods.
+TEST(RequirementCommands, AreInFilesOfParts) {
+  const TemporaryFolder folder;
+  const std::string robot = folder.file("arm.cuik");
+  std::ofstream(robot) << "[LINKS]\nbase : sphere 1/10 (3/5, 3/5, 0)\nupper : cylinder 1/20 (0, 0, 0) (1, 0, 0)\n"
+                          "fore : point H (1, 0, 0)\n  cylinder 1/20 (0, 0, 0) (1, 0, 0)\n"
+                          "[JOINTS]\nrevolute a : base (0, 0, 0) + (0, 0, 1) upper (0, 0, 0) + (0, 0, 1) actuated\n"
+                          "revolute b : upper (1, 0, 0) + (0, 0, 1) fore (0, 0, 0) + (0, 0, 1) actuated\n"
+                          "[OUTPUTS]\nP : position of fore.H\n[REQUIREMENTS]\n# the post in the way\n"
+                          "distance(base, fore) >= 1/10;\npressure_angle(s_2 s_3, s_4 s_5) <= 80 deg;\n";
+  const std::string file = folder.file("m.h5");
+  const auto run =
+      run_corank({"map", robot, "--over", "P_x=1/10:1", "--over", "P_y=-1/2:3/4", "--resolution", "32", "-o", file});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("\n  required              distance(base, fore) >= 1/10\n"));
+  EXPECT_THAT(run.out, ::testing::ContainsRegex("\n  satisfied +[1-9]"));
+  EXPECT_THAT(run.out, ::testing::ContainsRegex("\n  violated +[1-9]"));
+  EXPECT_THAT(run_corank({"verify", file}).out, HasSubstr("\nverified"));
+  const auto derived = run_corank({"derive", robot, "--format", "model"});
+  EXPECT_THAT(derived.out, HasSubstr("cylinder fore = s_4 s_5 radius 1/20"));
+  EXPECT_THAT(derived.out, HasSubstr("distance(base, fore) >= 1/10;"));
+}
+
 // D. Chablat, P. Wenger, "Architecture optimization of a 3-DOF translational parallel mechanism for machining applications,
 // the Orthoglide", IEEE Trans. Robotics and Automation 19, 2003: with rods of length 1 the velocity amplification is between
 // 1/2 and 2 on the cube [-1/sqrt(6), 1/(3 sqrt(2))]^3, whose corners it is 2 or 1/2 at.

@@ -54,6 +54,16 @@ def test_it_is_drawn_with_a_legend(cusp):
     assert words[:2] == ["3", "1"] and "solutions meet" in words and ax.get_xlabel() == "a"
 
 
+def test_bodies_keep_apart_in_cells(dextar):
+    apart = dextar.map(
+        {"J3x": (0.25, 1), "J3y": (0.3, 1.75)}, require="distance(J5 J4, J2 J3) >= 5 mm", resolution=32, certificate=True
+    )
+    assert apart.at(0.59, 1.2) is True and apart.at(0.59, 0.55) is False
+    assert apart.verify().verified
+    with pytest.raises(corank.ModelError, match="one of a distance"):
+        dextar.with_requirements("distance(J5 J4, J2 J3) >= 5 mm").solve("requirements")
+
+
 def test_requirements_are_met_violated_or_open(dextar):
     over = {"J3x": (0.25, 1), "J3y": (0.3, 1.75)}
     required = dextar.map(over, require="amplification(outputs) <= 2", resolution=32, certificate=True)

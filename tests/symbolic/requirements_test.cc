@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "corank/symbolic/model/evaluate.h"
 #include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/model/requirement_text.h"
 #include "corank/symbolic/sets/parameters.h"
@@ -29,7 +30,7 @@ Limit parsed(const std::string& text) {
   return std::get<Limit>(parse_requirement(text).limit);
 }
 
-TEST(RequirementText, HasFourForms) {
+TEST(RequirementText, HasTheFormsOfItsKinds) {
   const auto plain = parsed<AmplificationLimit>("amplification(outputs) <= 3/2");
   EXPECT_EQ(plain.role, Role::output);
   EXPECT_EQ(plain.most.value.text(), "3/2");
@@ -55,6 +56,21 @@ TEST(RequirementText, HasFourForms) {
   ASSERT_EQ(error.inputs.size(), 1u);
   EXPECT_EQ(error.inputs[0].name, "inputs");
   EXPECT_EQ(parsed<ErrorLimit>("error(x) <= 1 under a +- 1, b <= 2").inputs.size(), 2u);
+
+  const auto distance = parsed<DistanceLimit>("distance(A B radius 3 mm, arm) >= 5 mm");
+  ASSERT_EQ(distance.bodies.size(), 2u);
+  EXPECT_THAT(distance.bodies[0].names, ElementsAre("A", "B"));
+  EXPECT_EQ(distance.bodies[0].radius.value().unit, "mm");
+  EXPECT_THAT(distance.bodies[1].names, ElementsAre("arm"));
+  EXPECT_FALSE(distance.bodies[1].radius);
+  EXPECT_EQ(distance.least.value.text() + distance.least.unit, "5mm");
+  const auto pressure = parsed<LineAngleLimit>("pressure_angle(A B, P Q) <= 45 deg");
+  EXPECT_FALSE(pressure.least);
+  EXPECT_THAT(pressure.points, ElementsAre(ElementsAre("A", "B"), ElementsAre("P", "Q")));
+  EXPECT_EQ(pressure.limit.unit, "deg");
+  const auto transmission = parsed<LineAngleLimit>("transmission_angle(A B C) >= 1");
+  EXPECT_TRUE(transmission.least);
+  EXPECT_THAT(transmission.points, ElementsAre(ElementsAre("A", "B", "C")));
 
   EXPECT_EQ(parsed<Relation>("x^2 + y^2 <= 4").text(), "x^2 + y^2 <= 4");
   EXPECT_EQ(parsed<Relation>("sin(theta) >= 1/2").text(), "sin(theta) >= 1/2");
@@ -85,6 +101,12 @@ TEST(RequirementText, SaysWhereItsFaultIs) {
   EXPECT_THAT(fault_in("torque() <= 1 under force(x) <= 1"), HasSubstr("expected the name of a coordinate"));
   EXPECT_THAT(fault_in("error(x) <= 1 under inputs = 1"), HasSubstr("expected '<=' or '±'"));
   EXPECT_THAT(fault_in("error(x) <= 1 under <= 1"), HasSubstr("expected inputs"));
+  EXPECT_THAT(fault_in("distance(A, B) <= 1"), HasSubstr("expected '>='"));
+  EXPECT_THAT(fault_in("distance(A) >= 1"), HasSubstr("expected a point, radius, or ','"));
+  EXPECT_THAT(fault_in("distance(A, ) >= 1"), HasSubstr("expected the name of a body"));
+  EXPECT_THAT(fault_in("distance(A, B, C) >= 1"), HasSubstr("expected ')'"));
+  EXPECT_THAT(fault_in("pressure_angle(A B, C D) >= 1"), HasSubstr("expected '<='"));
+  EXPECT_THAT(fault_in("transmission_angle(A B C) <= 1"), HasSubstr("expected '>='"));
   EXPECT_THAT(fault_in("x = 1"), HasSubstr("expected an operator, '<=' or '>='"));
   EXPECT_THAT(fault_in("x <= 1 N"), HasSubstr("requirement:1:8"));
   EXPECT_THAT(fault_in(std::string("x <= \xFF")), HasSubstr("requirement:1:"));
@@ -209,6 +231,107 @@ TEST(Requirements, KnowAnAngleThatCountsAsALength) {
   model.unroll("phi", -1, 1);
   EXPECT_EQ(refusal(model, "amplification(outputs) <= 1 metric x: 1, y: 1, phi: 1 deg"), "none");
   EXPECT_EQ(refusal(model, "torque(theta1) <= 1 under moment(phi) <= 1"), "none");
+}
+
+// Of the model in dm: 10 mm and two radii of 3 mm are 0.16 dm. A drawing in the plane, and points that are numbers.
+TEST(Requirements, OfDistancesKnowTheirBodies) {
+  const std::vector<Requirement> r = family({"distance(J5 J4 radius 3 mm, J1 J2 radius 3 mm) >= 10 mm"}).requirements;
+  ASSERT_EQ(r[0].distances.size(), 1u);
+  const DistanceTest& test = r[0].distances[0];
+  EXPECT_EQ(test.least.text(), "4/25");
+  ASSERT_EQ(test.hulls[0].size(), 2u);
+  EXPECT_EQ(test.hulls[0][0][0].variable, -1) << "J5 is the origin";
+  EXPECT_GE(test.hulls[0][1][0].variable, 0);
+  EXPECT_EQ(test.hulls[0][1][2].variable, -1) << "in the plane";
+}
+
+const char* const kDrawn =
+    "[SYSTEM VARS]\nx : [-2, 2]\nu ~ [-pi, pi]\n[SYSTEM EQS]\nx = cos(u);\n[INPUTS] u\n[OUTPUTS] x\n[DRAWING]\n"
+    "unit m\npoint A = (0, 0, 0)\npoint B = (x, 0, 1)\npoint C = (x, 1, 1)\npoint D = (x, 1, 2)\n"
+    "link bar = A B #aabbcc\nsphere ball = A radius 1/4\ncylinder tool = A B radius 1/2\nball A\n"
+    "platform plate = A B C\nplatform plate = B C D\nlink A C\nlink tool = C D\n";
+
+TEST(Requirements, OfDistancesTakeBodiesOfTheDrawing) {
+  const Mechanism model = parse_model(kDrawn, "m.cuik");
+  EXPECT_EQ(model.drawing().parts[0].name, "bar");
+  EXPECT_EQ(model.drawing().parts[6].name, "");
+  const auto distances = [&](const std::string& text) {
+    return Requirements(with(model, {text})).of_functions().at(0).distances;
+  };
+  EXPECT_EQ(distances("distance(bar, ball) >= 1").at(0).least.text(), "5/4") << "and the ball's radius";
+  EXPECT_EQ(distances("distance(bar radius 1/4, ball radius 50 cm) >= 1").at(0).least.text(), "2");
+  ASSERT_EQ(distances("distance(tool, ball) >= 0").size(), 2u) << "each part of a body";
+  EXPECT_EQ(distances("distance(tool, ball) >= 0").at(0).least.text(), "3/4");
+  EXPECT_EQ(distances("distance(tool, ball) >= 0").at(1).least.text(), "1/4");
+  ASSERT_EQ(distances("distance(plate, ball) >= 0").size(), 1u) << "but faces are those of one solid";
+  EXPECT_EQ(distances("distance(plate, ball) >= 0").at(0).hulls[0].size(), 6u);
+}
+
+TEST(Requirements, AreWrittenWithTheBodiesThatTheyName) {
+  const Mechanism model = with(parse_model(kDrawn, "m.cuik"), {"distance(bar, ball) >= 1"});
+  const Mechanism again = parse_model(to_model(model), "again.cuik");
+  EXPECT_EQ(again.requirement_texts(), model.requirement_texts());
+  std::vector<std::string> names;
+  for (const DrawingPart& part : again.drawing().parts) names.push_back(part.name);
+  EXPECT_THAT(names, ElementsAre("bar", "ball", "tool", "", "plate", "plate", "", "tool"));
+}
+
+TEST(Requirements, OfDistancesAreRefusedWhereTheyMeanNothing) {
+  const Mechanism model = parse_model(kDrawn, "m.cuik");
+  EXPECT_THAT(refusal(model, "distance(bar, bal) >= 1"), HasSubstr("'bal' is no body or point"));
+  EXPECT_THAT(refusal(model, "distance(bar, bal) >= 1"), HasSubstr("did you mean 'bar'"));
+  EXPECT_THAT(refusal(model, "distance(A bar, B) >= 1"), HasSubstr("'bar' is no body or point"));
+  EXPECT_THAT(refusal(model, "distance(bar, C) >= 0"), HasSubstr("is not positive"));
+  EXPECT_THAT(refusal(model, "distance(bar, ball) >= -1"), HasSubstr("is not 0 or more"));
+  EXPECT_THAT(refusal(model, "distance(bar, ball) >= 1 deg"), HasSubstr("deg is the unit of an angle"));
+  EXPECT_THAT(refusal(model, "distance(bar radius 1 N, ball) >= 1"), HasSubstr("N is the unit of a force"));
+  EXPECT_THAT(refusal(rrr(), "distance(A1 B1, C1 B1) >= 1 mm"), HasSubstr("unit"));
+  const auto set_of = [&](const std::string& text) -> std::string {
+    try {
+      kernel_question(with(model, {text}), SingularitySet::requirements);
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(set_of("distance(bar, ball) >= 1"), HasSubstr("whose limit is no single equation; expected corank map"));
+  const auto model_with = [](const std::string& line) -> std::string {
+    try {
+      parse_model(kDrawn + line, "m.cuik");
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(model_with("joint pin = A"), HasSubstr("a joint is no body that has a name"));
+  EXPECT_THAT(model_with("link bar ="), HasSubstr("expected"));
+}
+
+// A rod from A to B along (x, 0, 1), a point that moves along the third axis: cos² of the angle is 1/(x² + 1).
+TEST(Requirements, OfAnglesBetweenLinesAreComparisons) {
+  const Mechanism model = parse_model(kDrawn, "m.cuik");
+  const auto excess = [&](const std::string& text) {
+    const Requirements r(with(model, {text}));
+    EXPECT_TRUE(r.of_functions().at(0).excess);
+    return r.functions().at(*r.of_functions().at(0).excess);
+  };
+  const auto at = [&](const std::string& text, double x) {
+    return evaluate(excess(text), std::map<std::string, double>{{"x", x}});
+  };
+  EXPECT_NEAR(at("pressure_angle(A B, C D) <= 30 deg", std::tan(M_PI / 6)), 0, 1e-12);
+  EXPECT_LT(at("pressure_angle(A B, C D) <= 30 deg", 0.5), 0);
+  EXPECT_GT(at("pressure_angle(A B, C D) <= 30 deg", 0.6), 0);
+  EXPECT_GT(at("pressure_angle(A B, D C) <= 30 deg", 0.6), 0) << "the lines have no direction";
+  // At C between A and D: D - C is the third axis, A - C is (-x, -1, -1).
+  EXPECT_NEAR(at("transmission_angle(A C D) >= pi/4", 0), 0, 1e-12);
+  EXPECT_LT(at("transmission_angle(A C D) >= 40 deg", 0), 0);
+  EXPECT_GT(at("transmission_angle(A C D) >= 50 deg", 0), 0);
+  EXPECT_NO_THROW(kernel_question(with(model, {"pressure_angle(A B, C D) <= 30 deg"}), SingularitySet::requirements));
+  EXPECT_THAT(refusal(model, "pressure_angle(A B, C D) <= 90 deg"), HasSubstr("is not below 90 degrees"));
+  EXPECT_THAT(refusal(model, "pressure_angle(A B, C D) <= 1 mm"), HasSubstr("mm is the unit of a length"));
+  EXPECT_THAT(refusal(model, "pressure_angle(A B C, C D) <= 1"), HasSubstr("a line has 3 points"));
+  EXPECT_THAT(refusal(model, "transmission_angle(A B) >= 1"), HasSubstr("it has 2 points"));
+  EXPECT_THAT(refusal(model, "transmission_angle(A B K) >= 1"), HasSubstr("'K' is no body or point"));
 }
 
 TEST(Requirements, OfSeveralLoadsHaveNoSet) {
