@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "corank/symbolic/sets/singularity_system.h"
-
 namespace corank::symbolic {
 
 /// Presentation elements without <math> around them.
