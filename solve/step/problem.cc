@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "corank/solve/step/heuristics.h"
 #include "corank/solve/step/propagation.h"
 
 namespace corank::solve {
