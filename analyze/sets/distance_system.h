@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "corank/solve/step/options.h"
+
 namespace corank::analyze {
 
 /// The reduced system; its inequalities between configuration variables as equations with a slack variable each; d_k = its

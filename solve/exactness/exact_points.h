@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corank/core/cover.h"
+#include "corank/core/ended.h"
 #include "corank/core/system.h"
 #include "corank/solve/step/control.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corank/core/rounding.h"
 #include "corank/solve/step/propagation.h"
 
 namespace corank::solve {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "corank/symbolic/sets/singularity_system.h"
+
 namespace corank::symbolic {
 
 /// Presentation elements without <math> around them.
