@@ -1,16 +1,11 @@
 // corank angles: from sines and cosines to angles, in the boxes of a result.
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <set>
 
 #include "corank/app/box_files.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/certify/angle.h"
-#include "corank/result/files/result_file.h"
 
 namespace corank::app {
 namespace {

@@ -28,33 +28,22 @@ analyze::NamedRange range_of(const std::string& text, const std::vector<analyze:
 void BallCommand::add_options(CLI::App& sub, const std::string& required) {
   question.add_options(sub, "Which configurations the ball must not hold",
                        "Then the ball holds no configuration at which one reaches its limit");
-  sub.add_option(
-         "--at", at,
-         "The centre of the ball, and other coordinates that keep a value; a VALUE may use the model's constants, and\n"
-         "15deg is an angle in degrees")
-      ->type_name("NAME=VALUE,...")
-      ->allow_extra_args(false);
-  sub.add_option("--in", in,
-                 "The coordinates in which the ball lies" + required + "; one radian counts like one unit of length")
-      ->type_name("NAME,...")
-      ->allow_extra_args(false);
-  sub.add_option(
-         "--range,--mode", ranges,
-         "Search these ranges of coordinates instead of the model's, for example to look at one working mode only, to\n"
-         "set a joint's limit, or to let an angle vary; ±D or +-D: by at most D from the value in --at; --mode is the same "
-         "option")
-      ->type_name("NAME=[A,B],NAME=±D,...")
-      ->allow_extra_args(false);
-  sub.add_option(
-         "--orientation-range", orientation_range,
-         "Let angles of the outputs vary by at most ANGLE from their value in --at, and the orientation of a spatial robot\n"
-         "by a turn of at most ANGLE from the one in --orientation")
-      ->type_name("ANGLE");
-  sub.add_option("--orientation", orientation, "Orientation of a spatial robot, such as Rz(0.2)*Ry(10deg)*Rx(0.3)")
-      ->type_name("R");
-  sub.add_option("--orientation-of", orientation_of,
-                 "The link or the rotation matrix that --orientation is for, if there are several")
-      ->type_name("NAME");
+  add_option(sub, "--at NAME=VALUE,...", at,
+             "The centre of the ball, and other coordinates that keep a value; a VALUE may use the model's constants, and\n"
+             "15deg is an angle in degrees");
+  add_option(sub, "--in NAME,...", in,
+             "The coordinates in which the ball lies" + required + "; one radian counts like one unit of length");
+  add_option(
+      sub, "--range,--mode NAME=[A,B],NAME=±D,...", ranges,
+      "Search these ranges of coordinates instead of the model's, for example to look at one working mode only, to\n"
+      "set a joint's limit, or to let an angle vary; ±D or +-D: by at most D from the value in --at; --mode is the same "
+      "option");
+  add_option(
+      sub, "--orientation-range ANGLE", orientation_range,
+      "Let angles of the outputs vary by at most ANGLE from their value in --at, and the orientation of a spatial robot\n"
+      "by a turn of at most ANGLE from the one in --orientation");
+  orientation.add_options(sub, "Orientation of a spatial robot, such as Rz(0.2)*Ry(10deg)*Rx(0.3)",
+                          "The link or the rotation matrix");
   limits.add_options(sub, "the search");
 }
 
@@ -69,11 +58,9 @@ analyze::BallOptions BallCommand::ball() const {
   options.at = named_values(at, "--at");
   options.in = parts_of(in);
   for (const std::string& part : parts_of(ranges)) options.ranges.push_back(range_of(part, options.at));
-  if (orientation.empty() && !orientation_of.empty())
-    throw UsageError("--orientation-of: without effect; expected --orientation beside it");
-  if (!orientation.empty()) options.orientation = analyze::parse_rotation(orientation);
+  options.orientation = orientation.rotation();
   if (!orientation_range.empty()) options.orientation_range = expression(orientation_range, "--orientation-range");
-  options.orientation_of = orientation_of;
+  options.orientation_of = orientation.of;
   return options;
 }
 

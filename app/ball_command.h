@@ -17,7 +17,8 @@ struct BallCommand {
   QuestionOptions question;
   SearchLimits limits{};  // one thread for each core
   std::vector<std::string> at, in, ranges;
-  std::string orientation, orientation_range, orientation_of;
+  std::string orientation_range;
+  OrientationOptions orientation;
 
   /// The model, the set, the ball, and what ends the search. `required`: when --in is.
   void add_options(CLI::App& sub, const std::string& required = "");

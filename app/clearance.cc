@@ -1,9 +1,7 @@
 // corank clearance: the largest ball without a singularity about a configuration, about the best centre, over a map.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include "corank/analyze/clearance/best_center.h"
 #include "corank/analyze/clearance/clearance.h"
@@ -11,15 +9,8 @@
 #include "corank/analyze/paths/path.h"
 #include "corank/app/ball_command.h"
 #include "corank/app/box_files.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/pictures/heat_map.h"
-#include "corank/result/files/result_file.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
@@ -46,11 +37,9 @@ struct ClearanceRun {
   ProgressLine line;
 };
 
-// "radius in [0.1, 0.2], 300 boxes".
 auto shown_radius(ProgressLine& line, const char* what) {
   return [&line, what](double lower, std::optional<double> upper, std::uint64_t count) {
-    line.show(upper ? fmt::format("radius in [{:.5g}, {:.5g}], {} {}", lower, *upper, count, what)
-                    : fmt::format("radius at least {:.5g}, {} {}", lower, count, what));
+    line.show(analyze::progress_text(lower, upper, count, what));
   };
 }
 
@@ -199,22 +188,16 @@ void add_clearance(CLI::App& program, Action& action) {
   const auto command = std::make_shared<ClearanceCommand>();
   command->add_options(*sub, ", required unless --best or --map is given");
   CLI::Option* best =
-      sub->add_option(
-             "--best", command->best,
-             "Find which centre within these ranges of lengths has the largest ball; without --in, the ball lies in\n"
-             "the coordinates of these ranges")
-          ->type_name("NAME=[A,B],...")
-          ->allow_extra_args(false);
+      add_option(*sub, "--best NAME=[A,B],...", command->best,
+                 "Find which centre within these ranges of lengths has the largest ball; without --in, the ball lies in\n"
+                 "the coordinates of these ranges");
   CLI::Option* map =
-      sub->add_option(
-             "--map", command->map,
-             "Compute the radius of the ball for the centres in each cell of a grid over two lengths, within the ranges\n"
-             "given here or else in the model; the bounds of a cell hold for every centre in it")
-          ->type_name("NAME,NAME or NAME=[A,B],NAME=[A,B]")
-          ->allow_extra_args(false)
+      add_option(
+          *sub, "--map NAME,NAME or NAME=[A,B],NAME=[A,B]", command->map,
+          "Compute the radius of the ball for the centres in each cell of a grid over two lengths, within the ranges\n"
+          "given here or else in the model; the bounds of a cell hold for every centre in it")
           ->excludes(best);
-  CLI::Option* output =
-      sub->add_option("-o,--output", command->output, "The file for the map: .svg, .csv or .json")->type_name("FILE");
+  CLI::Option* output = add_option(*sub, "-o,--output FILE", command->output, "The file for the map: .svg, .csv or .json");
   map->needs(output);
   output->needs(map);
   sub->add_option("--grid", command->grid, "Number of the map's cells along each side")
@@ -224,11 +207,9 @@ void add_clearance(CLI::App& program, Action& action) {
   sub->add_option("--precision", command->precision, "End when the bounds of the radius are this close, relative to it")
       ->check(CLI::Range(1e-6, 0.9))
       ->capture_default_str();
-  sub->add_option(
-         "--proof", command->proof_stem,
-         "Write two files that corank verify checks: NAME-free.h5 proves that the ball whose radius is the lower bound\n"
-         "holds no singularity; NAME-nearest.h5 holds a singularity in the ball whose radius is the upper bound")
-      ->type_name("NAME")
+  add_option(*sub, "--proof NAME", command->proof_stem,
+             "Write two files that corank verify checks: NAME-free.h5 proves that the ball whose radius is the lower bound\n"
+             "holds no singularity; NAME-nearest.h5 holds a singularity in the ball whose radius is the upper bound")
       ->excludes(best)
       ->excludes(map);
   command->json.add(*sub);

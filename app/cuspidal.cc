@@ -1,20 +1,9 @@
 // corank cuspidal: does a robot change its posture without a singularity?
 #include "corank/analyze/postures/cuspidal.h"
 
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "corank/app/box_files.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/values/claim_files.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
@@ -62,8 +51,7 @@ void add_cuspidal(CLI::App& program, Action& action) {
   sub->add_option("--poses", command->options.poses, "How many poses are tried")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  sub->add_option("-o,--output", command->output, "Write the path, with its proof, for corank verify (.h5)")
-      ->type_name("FILE");
+  add_option(*sub, "-o,--output FILE", command->output, "Write the path, with its proof, for corank verify (.h5)");
   add_analysis_limits(*sub, command->options.threads, command->time_limit);
   command->json.add(*sub);
   sub->footer(

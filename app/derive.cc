@@ -1,16 +1,9 @@
 // corank derive: the equations, for people (text, latex) and for programs (cuik); the model itself (model).
-#include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
-#include "corank/app/limited_run.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/values/summary.h"
-#include "corank/result/values/words.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model/model_error.h"
 #include "corank/symbolic/model/text_file.h"
@@ -161,7 +154,7 @@ void add_derive(CLI::App& program, Action& action) {
       ->check(CLI::IsMember({"text", "latex", "cuik", "model"}))
       ->capture_default_str();
   add_time_limit(*sub, options->time_limit);
-  sub->add_option("-o", options->path, "Write to this file instead of standard output")->type_name("FILE");
+  add_option(*sub, "-o FILE", options->path, "Write to this file instead of standard output");
   options->json.add(*sub, "the constraints, the velocity equation and the systems", "the text");
   sub->footer(
       "Without --set, the set is cspace.\n\n"

@@ -1,23 +1,14 @@
 // corank gallery: published results, reproduced with proof, as a table and a page.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <memory>
 #include <mutex>
 #include <thread>
 
 #include "corank/app/child_process.h"
-#include "corank/app/exit_status.h"
 #include "corank/app/gallery_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/stored_run.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/watch.h"
 #include "corank/report/html/gallery_page.h"
-#include "corank/result/files/result_file.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
@@ -145,16 +136,14 @@ void add_gallery(CLI::App& program, Action& action) {
       program.add_subcommand("gallery", "Reproduce published results, and write a table and a web page about them");
   const auto command = std::make_shared<GalleryCommand>();
   sub->add_option("ENTRIES", command->names, "Names of entries; default: all");
-  sub->add_option("--entries", command->entries, "Folder of the entries NAME.toml; default: those that come with corank")
-      ->type_name("FOLDER");
-  sub->add_option("-o", command->folder, "Folder for index.html and for what the commands write")
-      ->type_name("FOLDER")
+  add_option(*sub, "--entries FOLDER", command->entries,
+             "Folder of the entries NAME.toml; default: those that come with corank");
+  add_option(*sub, "-o FOLDER", command->folder, "Folder for index.html and for what the commands write")
       ->capture_default_str();
   sub->add_flag("--quick", command->quick, "Only the entries that take seconds");
   sub->add_flag("--fresh", command->fresh, "Run every command again, also those whose answers are stored in the folder");
-  sub->add_option("--time-limit", command->time_limit,
-                  "End each command after SECONDS, so that its entry is not met; 0: no limit")
-      ->type_name("SECONDS")
+  add_option(*sub, "--time-limit SECONDS", command->time_limit,
+             "End each command after SECONDS, so that its entry is not met; 0: no limit")
       ->capture_default_str();
   add_threads(*sub, command->threads);
   command->json.add(*sub);

@@ -23,7 +23,7 @@ namespace {
 struct MapCommand {
   QuestionOptions question;
   std::vector<std::string> over, fixed;
-  std::string orientation, orientation_of;
+  OrientationOptions orientation;
   std::string count = "solutions";
   analyze::ParameterMapOptions options{.resolution = 64, .boundary = true, .threads = 0, .progress = {}};
   bool no_boundary = false;
@@ -60,9 +60,10 @@ analyze::MapQuestion question_of(const MapCommand& command) {
   question.question.set = chosen_set(set, question.question.model);
   for (const std::string& text : command.over) question.over.push_back(parameter(text));
   for (const std::string& text : command.fixed) question.fixed.push_back(fixed(text));
-  if (command.orientation.empty()) return question;
-  return analyze::posture_map(question.question, std::move(question.over), question.fixed,
-                              analyze::parse_rotation(command.orientation), command.orientation_of);
+  const std::optional<analyze::Rotation> orientation = command.orientation.rotation();
+  if (!orientation) return question;
+  return analyze::posture_map(question.question, std::move(question.over), question.fixed, *orientation,
+                              command.orientation.of);
 }
 
 report::ParameterPicture picture(const analyze::ParameterMap& map) {
@@ -91,10 +92,8 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
 }
 
 ExitStatus write_map(const CLI::App& sub, MapCommand command) {
-  if (!command.orientation.empty())
+  if (!command.orientation.turns.empty())
     refuse_without_effect(sub, {"--set", "--kernel", "--corank", "--require"}, "no --orientation beside it");
-  if (command.orientation.empty() && !command.orientation_of.empty())
-    throw UsageError("--orientation-of: without effect; expected --orientation beside it");
   if (command.count != "solutions")
     refuse_without_effect(sub, {"--no-boundary", "--require", "--orientation"}, "--count solutions");
   command.json.give_back(command.question.file);
@@ -155,12 +154,10 @@ void add_map(CLI::App& program, Action& action) {
   sub->add_option("--fix", command->fixed, "A coordinate that keeps one value; may be repeated")
       ->type_name("NAME=EXPR")
       ->allow_extra_args(false);
-  sub->add_option("--orientation", command->orientation,
-                  "Count the postures of an arm of six revolute joints whose hand has this orientation, such as\n"
-                  "Rz(0.2)*Ry(10deg); two components of its position run, the third one is fixed")
-      ->type_name("R");
-  sub->add_option("--orientation-of", command->orientation_of, "The link that --orientation is for, if there are several")
-      ->type_name("NAME");
+  command->orientation.add_options(
+      *sub,
+      "Count the postures of an arm of six revolute joints whose hand has this orientation, such as\n"
+      "Rz(0.2)*Ry(10deg); two components of its position run, the third one is fixed");
   sub->add_option("--count", command->count,
                   "What to count. solutions: those of --set (default: cspace), proven over whole cells; the others:\n"
                   "pieces among all configurations of one mechanism, proven only at the centres of cells")

@@ -1,25 +1,15 @@
 // corank path: a way between two configurations without a singularity, as a tube that is proven.
 #include "corank/analyze/paths/path.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include "corank/app/box_files.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
 #include "corank/app/set_search.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/html/path_page.h"
 #include "corank/report/pictures/set_look.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/values/claim_files.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
@@ -169,17 +159,15 @@ void add_path(CLI::App& program, Action& action) {
                   "smaller radius; default: 0")
       ->check(CLI::NonNegativeNumber);
   add_threads(*sub, command->options.threads);
-  sub->add_option("--max-boxes", command->options.max_boxes, "Enclose C-space in at most N boxes when looking for the path")
-      ->type_name("N")
+  add_option(*sub, "--max-boxes N", command->options.max_boxes,
+             "Enclose C-space in at most N boxes when looking for the path")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   add_time_limit(*sub, command->time_limit, "End after SECONDS");
-  sub->add_option("-o,--output", command->output,
-                  "Write the path, if there is one, with the tube (the boxes that prove it), for corank verify")
-      ->type_name("FILE.h5");
-  sub->add_option("--csv", command->csv, "Write the waypoints of the path")->type_name("FILE");
-  sub->add_option("--report", command->report, "Write an HTML page on which the mechanism moves along the path")
-      ->type_name("FILE.html");
+  add_option(*sub, "-o,--output FILE.h5", command->output,
+             "Write the path, if there is one, with the tube (the boxes that prove it), for corank verify");
+  add_option(*sub, "--csv FILE", command->csv, "Write the waypoints of the path");
+  add_option(*sub, "--report FILE.html", command->report, "Write an HTML page on which the mechanism moves along the path");
   command->json.add(*sub);
   sub->footer(
       "The path keeps to the ranges, limits and inequalities of the model. With the path corank prints two radii: one for\n"

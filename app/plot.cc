@@ -1,19 +1,14 @@
 // corank plot: the boxes of results in two or three coordinates, for papers, ParaView and Geomview.
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <list>
 #include <map>
-#include <memory>
 #include <set>
 
 #include "corank/app/box_files.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/pictures/picture.h"
 #include "corank/report/pictures/portrait.h"
-#include "corank/result/files/result_file.h"
 
 namespace corank::app {
 namespace {
@@ -134,7 +129,7 @@ void add_plot(CLI::App& program, Action& action) {
                   "Draw each box as a cube with this edge about its centre; 0: draw boxes as they are")
       ->check(CLI::Range(0.0, 1e300, "a non-negative number"))
       ->capture_default_str();
-  sub->add_option("--title", command->portrait.title, "A line of text above a .svg, .pdf or .png")->type_name("TEXT");
+  add_option(*sub, "--title TEXT", command->portrait.title, "A line of text above a .svg, .pdf or .png");
   sub->add_flag("--legend,!--no-legend", command->portrait.legend, "Explain the colours in a .svg, .pdf or .png (default)");
   sub->add_option("--width", command->portrait.width_mm, "Width in mm of a .svg, .pdf or .png")
       ->check(CLI::Range(20.0, 1000.0))
@@ -143,9 +138,8 @@ void add_plot(CLI::App& program, Action& action) {
       ->check(CLI::Range(10.0, 2400.0))
       ->capture_default_str();
   add_time_limit(*sub, command->time_limit);
-  sub->add_option("-o", command->output,
-                  "The picture: .svg, .pdf or .png for two axes; .vtp (ParaView) or .gcl (Geomview) for two or three")
-      ->type_name("PICTURE")
+  add_option(*sub, "-o PICTURE", command->output,
+             "The picture: .svg, .pdf or .png for two axes; .vtp (ParaView) or .gcl (Geomview) for two or three")
       ->required();
   sub->footer(
       "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 stopped by the limit or an interrupt, or done,\n"

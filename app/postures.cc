@@ -1,20 +1,10 @@
 // corank postures: all configurations in which some coordinates have given values.
 #include "corank/analyze/postures/postures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <memory>
 
 #include "corank/analyze/postures/posture_table.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/result/files/result_file.h"
-#include "corank/result/values/words.h"
 #include "corank/symbolic/model/model_file.h"
 
 namespace corank::app {
@@ -23,7 +13,7 @@ namespace {
 struct PosturesCommand {
   QuestionOptions question;
   std::vector<std::string> at;
-  std::string orientation, orientation_of;
+  OrientationOptions orientation;
   std::string table, output, against;
   double within = 1e-6;
   int threads = 0;
@@ -41,7 +31,7 @@ ExitStatus find_postures_of_table(const PosturesCommand& command) {
   const analyze::Table poses = analyze::parse_table(symbolic::read_text(command.table), command.table);
   std::optional<analyze::Table> others;
   if (!command.against.empty()) others = analyze::parse_table(symbolic::read_text(command.against), command.against);
-  const analyze::PostureFinder finder(analyze::question_of(poses, load(command.question), command.orientation_of));
+  const analyze::PostureFinder finder(analyze::question_of(poses, load(command.question), command.orientation.of));
   ProgressLine line;
   const std::vector<analyze::Postures> found =
       analyze::find_all(finder, analyze::rows_of(poses, command.table), command.threads, run.control(),
@@ -64,10 +54,8 @@ ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
     return find_postures_of_table(command);
   }
   refuse_without_effect(sub, {"--output", "--against", "--within"}, "--table beside it");
-  if (command.at.empty() && command.orientation.empty())
+  if (command.at.empty() && command.orientation.turns.empty())
     throw UsageError("--at is required; corank postures --help tells more");
-  if (command.orientation.empty() && !command.orientation_of.empty())
-    throw UsageError("--orientation-of: without effect; expected --orientation beside it");
   command.json.check();
   LimitedRun run({.time = command.time_limit});
   std::vector<symbolic::Expression> values;
@@ -76,10 +64,9 @@ ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
     question.given.push_back(v.name);
     values.push_back(std::move(v.value));
   }
-  std::optional<analyze::Rotation> orientation;
-  if (!command.orientation.empty()) orientation = analyze::parse_rotation(command.orientation);
+  const std::optional<analyze::Rotation> orientation = command.orientation.rotation();
   question.orientation = orientation.has_value();
-  question.orientation_of = command.orientation_of;
+  question.orientation_of = command.orientation.of;
   ProgressLine line;
   line.follow(run.control());
   const analyze::PostureFinder finder(std::move(question));
@@ -97,28 +84,18 @@ void add_postures(CLI::App& program, Action& action) {
   const auto command = std::make_shared<PosturesCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--at", command->at,
-                  "The values: of a pose's position, or of motors; a VALUE may use the model's constants, and 15deg is an\n"
-                  "angle in degrees")
-      ->type_name("NAME=VALUE,...")
-      ->allow_extra_args(false);
-  sub->add_option("--orientation", command->orientation,
-                  "The orientation of a link that is an output, such as Rz(0.2)*Ry(10deg)*Rx(0.3)")
-      ->type_name("R");
-  sub->add_option("--orientation-of", command->orientation_of, "The link that --orientation is for, if there are several")
-      ->type_name("NAME");
-  sub->add_option("--table", command->table,
-                  "Find the postures for each line of this file: numbers, separated by commas, under a line with the names\n"
-                  "of coordinates, and qw, qx, qy, qz for an orientation as a quaternion")
-      ->type_name("FILE.csv")
+  add_option(*sub, "--at NAME=VALUE,...", command->at,
+             "The values: of a pose's position, or of motors; a VALUE may use the model's constants, and 15deg is an\n"
+             "angle in degrees");
+  command->orientation.add_options(*sub, "The orientation of a link that is an output, such as Rz(0.2)*Ry(10deg)*Rx(0.3)");
+  add_option(*sub, "--table FILE.csv", command->table,
+             "Find the postures for each line of this file: numbers, separated by commas, under a line with the names\n"
+             "of coordinates, and qw, qx, qy, qz for an orientation as a quaternion")
       ->check(CLI::ExistingFile);
-  sub->add_option("-o,--output", command->output, "Write the postures of the table's poses to this file (.csv)")
-      ->type_name("FILE");
-  sub->add_option(
-         "--against", command->against,
-         "Compare somebody else's solutions with those that are proven: a table with the column pose, the number of\n"
-         "the pose from 1, and one for each joint (in radians)")
-      ->type_name("FILE.csv")
+  add_option(*sub, "-o,--output FILE", command->output, "Write the postures of the table's poses to this file (.csv)");
+  add_option(*sub, "--against FILE.csv", command->against,
+             "Compare somebody else's solutions with those that are proven: a table with the column pose, the number of\n"
+             "the pose from 1, and one for each joint (in radians)")
       ->check(CLI::ExistingFile);
   sub->add_option("--within", command->within, "How far apart two solutions may be in each joint to count as the same")
       ->check(CLI::PositiveNumber)

@@ -54,33 +54,28 @@ void QuestionOptions::add_outputs(CLI::App& sub) {
 }
 
 void QuestionOptions::add_require(CLI::App& sub, const std::string& what_for) {
-  sub.add_option("--require", require,
-                 "What a configuration is to meet beside being one, such as 'amplification(outputs) <= 2' or\n"
-                 "'torque(theta2) <= 3 N m under force(x, y) <= 50 N' (doc/as_built.md); may be repeated. " +
-                     what_for)
-      ->type_name("TEXT")
-      ->allow_extra_args(false);
+  add_option(sub, "--require TEXT", require,
+             "What a configuration is to meet beside being one, such as 'amplification(outputs) <= 2' or\n"
+             "'torque(theta2) <= 3 N m under force(x, y) <= 50 N' (doc/as_built.md); may be repeated. " +
+                 what_for);
 }
 
 void QuestionOptions::add_model(CLI::App& sub) {
   sub.add_option("FILE", file, "The model: equations (.cuik), parts (.cuik with [LINKS], or .world) or URDF (.urdf)");
-  sub.add_option("--loops", loops, "Companion of a URDF file: the inputs, the outputs, and the joints that close loops")
-      ->type_name("FILE.loops")
+  add_option(sub, "--loops FILE.loops", loops,
+             "Companion of a URDF file: the inputs, the outputs, and the joints that close loops")
       ->check(CLI::ExistingFile);
 }
 
 void QuestionOptions::add_corank(CLI::App& sub) {
-  sub.add_option("--corank", corank,
-                 "Only those of these configurations at which the kernel of the matrix M has dimension C or more;\n"
-                 "default: 1, which gives all singularities")
-      ->type_name("C")
+  add_option(sub, "--corank C", corank,
+             "Only those of these configurations at which the kernel of the matrix M has dimension C or more;\n"
+             "default: 1, which gives all singularities")
       ->check(CLI::PositiveNumber);
 }
 
 void QuestionOptions::add_definitions(CLI::App& sub) {
-  sub.add_option("-D", definitions, "Give a constant of the model another value; may be repeated")
-      ->type_name("NAME=EXPR")
-      ->allow_extra_args(false);
+  add_option(sub, "-D NAME=EXPR", definitions, "Give a constant of the model another value; may be repeated");
 }
 
 study::Question load(const QuestionOptions& options, std::set<std::string>* said) {

@@ -1,26 +1,16 @@
 // corank report: solves all sets of a mechanism and writes one HTML page about them, with the result files beside it.
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <list>
 #include <map>
-#include <memory>
 
 #include "corank/app/box_files.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
 #include "corank/app/set_search.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/watch.h"
 #include "corank/report/html/page.h"
 #include "corank/report/pictures/figures.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/files/verification.h"
 #include "corank/result/values/sentences.h"
-#include "corank/result/values/words.h"
 #include "corank/study/answer.h"
 #include "corank/symbolic/writing/printer.h"
 
@@ -234,8 +224,8 @@ void add_report(CLI::App& program, Action& action) {
   sub->add_option("--results", command->results, "Write the page about these results of one model, instead of solving")
       ->type_name("RESULT.h5...");
   command->json.add(*sub, "the contents of the page");
-  sub->add_option("-o", command->folder, "Folder for index.html, the results and the figures; default: MODEL-report")
-      ->type_name("FOLDER");
+  add_option(*sub, "-o FOLDER", command->folder,
+             "Folder for index.html, the results and the figures; default: MODEL-report");
   sub->footer(
       "Each search ends after 8 seconds or 200000 boxes, unless you give other limits. So the page is there within a\n"
       "minute. It says which sets are incomplete.\n\n"

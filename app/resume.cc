@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "corank/app/exit_status.h"
-#include "corank/result/files/result_file.h"
 #include "corank/solve/store/shard_bytes.h"
 #include "corank/symbolic/model/text_file.h"
 

@@ -1,23 +1,16 @@
 #include "corank/app/run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <new>
 #include <regex>
 #include <sstream>
 
-#include "corank/app/citation.h"
-#include "corank/app/limited_run.h"
 #include "corank/app/subcommands.h"
 #include "corank/core/check.h"
-#include "corank/result/files/result_file.h"
-#include "corank/result/values/words.h"
 #include "corank/solve/step/options.h"
 #include "corank/symbolic/model/model_error.h"
 
@@ -25,6 +18,17 @@ namespace corank::app {
 namespace {
 
 constexpr std::size_t kColumns = 100;
+
+// For BibTeX, of what CITATION.cff says and the version that runs.
+std::string citation() {
+  return R"(@software{corank,
+  author  = {{The corank developers}},
+  title   = {corank: all singularities of a robot mechanism, each with a proof},
+  version = {)" +
+         result::version() + R"(},
+  license = {GPL-3.0-or-later}
+})";
+}
 
 // Appends words, and where the line is full goes on in the next one after an indentation; a word that fits into no line is
 // broken after commas.

@@ -48,28 +48,35 @@ std::vector<analyze::NamedValue> named_values(const std::vector<std::string>& te
   return values;
 }
 
+void OrientationOptions::add_options(CLI::App& sub, const std::string& what_for, const std::string& of_what) {
+  add_option(sub, "--orientation R", turns, what_for);
+  add_option(sub, "--orientation-of NAME", of, of_what + " that --orientation is for, if there are several");
+}
+
+std::optional<analyze::Rotation> OrientationOptions::rotation() const {
+  if (!turns.empty()) return analyze::parse_rotation(turns);
+  if (!of.empty()) throw UsageError("--orientation-of: without effect; expected --orientation beside it");
+  return std::nullopt;
+}
+
 void SearchLimits::add_options(CLI::App& sub, const std::string& search) {
   const auto default_text = [](double value) {
     return value > 0 ? fmt::format("0: no limit; default: {:.15g}", value) : std::string("0: no limit (default)");
   };
   sub.add_option("--threads", threads, "Number of threads; 0: one for each core")->capture_default_str();
-  sub.add_option("--max-boxes", max_boxes,
-                 fmt::format("End {} after N processed boxes; {}", search, default_text(static_cast<double>(max_boxes))))
-      ->type_name("N")
+  add_option(sub, "--max-boxes N", max_boxes,
+             fmt::format("End {} after N processed boxes; {}", search, default_text(static_cast<double>(max_boxes))))
       ->check(CLI::NonNegativeNumber);
-  sub.add_option("--max-found", max_found,
-                 fmt::format("End {} when it has found N boxes, proven or undecided; {}", search,
-                             default_text(static_cast<double>(max_found))))
-      ->type_name("N")
+  add_option(sub, "--max-found N", max_found,
+             fmt::format("End {} when it has found N boxes, proven or undecided; {}", search,
+                         default_text(static_cast<double>(max_found))))
       ->check(CLI::NonNegativeNumber);
-  sub.add_option("--time-limit", time_limit,
-                 fmt::format("After SECONDS, end {} and the work that follows it; {}", search, default_text(time_limit)))
-      ->type_name("SECONDS");
-  sub.add_option("--memory-limit", memory_limit,
-                 fmt::format("End {} when its boxes take BYTES of memory, such as 800M or 8G; 0: no limit;\n"
-                             "default: three quarters of the machine's memory",
-                             search))
-      ->type_name("BYTES")
+  add_option(sub, "--time-limit SECONDS", time_limit,
+             fmt::format("After SECONDS, end {} and the work that follows it; {}", search, default_text(time_limit)));
+  add_option(sub, "--memory-limit BYTES", memory_limit,
+             fmt::format("End {} when its boxes take BYTES of memory, such as 800M or 8G; 0: no limit;\n"
+                         "default: three quarters of the machine's memory",
+                         search))
       ->transform(CLI::AsSizeValue(false));
 }
 
@@ -88,9 +95,7 @@ void add_threads(CLI::App& sub, int& threads) {
 }
 
 void add_time_limit(CLI::App& sub, double& seconds, const std::string& end) {
-  sub.add_option("--time-limit", seconds, end + "; 0: no limit (default)")
-      ->type_name("SECONDS")
-      ->check(CLI::NonNegativeNumber);
+  add_option(sub, "--time-limit SECONDS", seconds, end + "; 0: no limit (default)")->check(CLI::NonNegativeNumber);
 }
 
 void add_analysis_limits(CLI::App& sub, int& threads, double& seconds) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,26 @@ std::pair<std::string, std::string> split_at_equals(const std::string& text, con
 symbolic::Expression expression(const std::string& text, const std::string& option);
 /// NAME=VALUE, comma by comma.
 std::vector<analyze::NamedValue> named_values(const std::vector<std::string>& texts, const std::string& option);
+
+/// An option and what a help calls its value: add_option(sub, "--at NAME=VALUE,...", at, "The values"). Of a list one word
+/// each time it is given.
+template <class Value>
+CLI::Option* add_option(CLI::App& sub, const std::string& words, Value& value, const std::string& text) {
+  const std::size_t blank = words.find(' ');
+  CLI::Option* const option = sub.add_option(words.substr(0, blank), value, text)->type_name(words.substr(blank + 1));
+  if constexpr (std::is_same_v<Value, std::vector<std::string>>) option->allow_extra_args(false);
+  return option;
+}
+
+/// --orientation and --orientation-of, which may be without effect.
+struct OrientationOptions {
+  std::string turns, of;
+
+  /// `what_for`: "Orientation of a spatial robot", `of_what`: "The link".
+  void add_options(CLI::App& sub, const std::string& what_for, const std::string& of_what = "The link");
+  /// Nothing, unless it is given. Throws UsageError where only the link is, symbolic::ModelError.
+  std::optional<analyze::Rotation> rotation() const;
+};
 
 /// What ends a search; solve::Options::validate() says which numbers make sense.
 struct SearchLimits {

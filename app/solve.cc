@@ -1,30 +1,19 @@
 // corank solve: encloses a set in boxes with verdicts, prints a summary, writes result files.
 #include "corank/solve/search/solve.h"
 
-#include <fmt/format.h>
-
-#include <memory>
 #include <thread>
 #include <utility>
 
 #include "corank/analyze/maps/area_by_boundary.h"
 #include "corank/app/box_files.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/cuik/cuik_files.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/summary.h"
-#include "corank/result/values/words.h"
 #include "corank/study/answer.h"
 #include "corank/study/cost.h"
 #include "corank/study/run_journal.h"
-#include "corank/symbolic/sets/boundary.h"
 
 namespace corank::app {
 namespace {

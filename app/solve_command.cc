@@ -39,30 +39,23 @@ CLI::Validator seconds() {
 void add_solve_options(CLI::App& sub, SolveCommand& command) {
   command.question.add_options(
       sub, "A model with inputs and outputs needs --set, other models must not have it. Which configurations");
-  sub.add_option(
-         "--sigma", command.sigma,
-         "Largest edge of a box, in lengths and in the sines and cosines of angles; default: a share of the size of\n"
-         "the set found, 1/200 for a curve, 1/60 for a surface, 1/20 for more dimensions; inf: do not cut the\n"
-         "sheets, the proven pieces of the set")
-      ->type_name("S|inf");
-  sub.add_option("--sigma-length", command.sigma_length, "The same for lengths only, in the model's unit")
-      ->type_name("S|inf");
-  sub.add_option("--sigma-angle", command.sigma_angle, "The same for the sines and cosines of angles only")
-      ->type_name("S|inf");
-  sub.add_option("--tolerance", command.tolerance,
-                 "Let each coefficient that is not an integer vary by REL of its size, independently of the others;\n"
-                 "0: coefficients are exact; default: 1e-6 for a model without inputs and outputs that has more\n"
-                 "equations than variables, else 0")
-      ->type_name("REL")
+  add_option(sub, "--sigma S|inf", command.sigma,
+             "Largest edge of a box, in lengths and in the sines and cosines of angles; default: a share of the size of\n"
+             "the set found, 1/200 for a curve, 1/60 for a surface, 1/20 for more dimensions; inf: do not cut the\n"
+             "sheets, the proven pieces of the set");
+  add_option(sub, "--sigma-length S|inf", command.sigma_length, "The same for lengths only, in the model's unit");
+  add_option(sub, "--sigma-angle S|inf", command.sigma_angle, "The same for the sines and cosines of angles only");
+  add_option(sub, "--tolerance REL", command.tolerance,
+             "Let each coefficient that is not an integer vary by REL of its size, independently of the others;\n"
+             "0: coefficients are exact; default: 1e-6 for a model without inputs and outputs that has more\n"
+             "equations than variables, else 0")
       ->check(tolerance());
   command.limits.add_options(sub, "the search");
-  sub.add_option("--max-solutions", command.max_solutions,
-                 "End the search when N boxes are proven; boxes about the same isolated solution count once; 0: no limit")
-      ->type_name("N")
+  add_option(sub, "--max-solutions N", command.max_solutions,
+             "End the search when N boxes are proven; boxes about the same isolated solution count once; 0: no limit")
       ->check(CLI::NonNegativeNumber);
-  sub.add_option("--digits", command.digits,
-                 "Give isolated solutions with N proven decimals; 0: no more digits than their boxes show")
-      ->type_name("N")
+  add_option(sub, "--digits N", command.digits,
+             "Give isolated solutions with N proven decimals; 0: no more digits than their boxes show")
       ->check(CLI::Range(0, 1000, "a number from 0 to 1000"));
   sub.add_flag("--proof", command.proof,
                "Record the search in RESULT.h5, so that corank verify can check that no solution is missing");
@@ -72,29 +65,23 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
       "area, which may take long. Without --area, corank computes them only if the area follows from the boundary. It\n"
       "does not follow, for example, if the model has inequalities, or if the workspace may reach the end of a range\n"
       "that the model does not declare as a limit (section [LIMITS])");
-  sub.add_option("-o", command.result_path,
-                 "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's format if its name\n"
-                 "ends in .sol")
-      ->type_name("RESULT.h5|.sol");
-  sub.add_option("--param", command.param_path,
-                 "A parameter file of the CUIK suite; --sigma and --max-solutions override its SIGMA and N_SOLUTIONS;\n"
-                 "default: NAME.param beside NAME.world, if it exists")
-      ->type_name("FILE.param");
-  sub.add_option("--checkpoint", command.checkpoint_path,
-                 "Store the state of the run in this file, from time to time and when a limit or Ctrl-C ends the run;\n"
-                 "corank solve --resume FILE goes on from there; a run that is complete removes the file")
-      ->type_name("FILE");
-  sub.add_option("--every", command.every, "Time between two checkpoints, such as 60s, 10m or 1h; default: 60s")
-      ->type_name("TIME")
+  add_option(sub, "-o RESULT.h5|.sol", command.result_path,
+             "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's format if its name\n"
+             "ends in .sol");
+  add_option(sub, "--param FILE.param", command.param_path,
+             "A parameter file of the CUIK suite; --sigma and --max-solutions override its SIGMA and N_SOLUTIONS;\n"
+             "default: NAME.param beside NAME.world, if it exists");
+  add_option(sub, "--checkpoint FILE", command.checkpoint_path,
+             "Store the state of the run in this file, from time to time and when a limit or Ctrl-C ends the run;\n"
+             "corank solve --resume FILE goes on from there; a run that is complete removes the file");
+  add_option(sub, "--every TIME", command.every, "Time between two checkpoints, such as 60s, 10m or 1h; default: 60s")
       ->transform(seconds());
-  sub.add_option("--resume", command.resume_path,
-                 "Go on with a run from its checkpoint, or from the result that it wrote when a limit ended it. The file\n"
-                 "holds the model and the question; you may give limits, --threads, -o, --json and --digits anew")
-      ->type_name("FILE|RESULT.h5");
-  sub.add_option("--refine", command.refine_path,
-                 "Cut the proven sheets of this result to another --sigma, without a search; the result must be one that\n"
-                 "--keep-sheets made")
-      ->type_name("RESULT.h5");
+  add_option(sub, "--resume FILE|RESULT.h5", command.resume_path,
+             "Go on with a run from its checkpoint, or from the result that it wrote when a limit ended it. The file\n"
+             "holds the model and the question; you may give limits, --threads, -o, --json and --digits anew");
+  add_option(sub, "--refine RESULT.h5", command.refine_path,
+             "Cut the proven sheets of this result to another --sigma, without a search; the result must be one that\n"
+             "--keep-sheets made");
   sub.add_flag("--keep-sheets", command.keep_sheets,
                "Store the sheets, the proven pieces of the set before they are cut to boxes, in RESULT.h5");
   sub.add_flag("--estimate", command.estimate,

@@ -1,21 +1,13 @@
 // corank studio: a page on this machine, on which a mechanism is designed while its sets are computed.
 #include "corank/studio/server.h"
 
-#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
-#include "corank/app/exit_status.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/html/live_page.h"
-#include "corank/result/values/words.h"
-#include "corank/studio/template_models.h"
 
 extern char** environ;
 
@@ -52,11 +44,8 @@ ExitStatus serve(const StudioCommand& command) {
   if (!asked.loops.empty()) page.loops = study::read_text(asked.loops).text;
   for (const std::string& definition : asked.definitions)
     page.constants.push_back(split_at_equals(definition, "-D", "NAME=EXPR"));
-  for (const studio::TemplateModel& model : studio::template_models()) page.templates.emplace_back(model.name, model.text);
   try {
-    studio::Server server({.port = command.port,
-                           .page = [&page] { return report::studio_page(page); },
-                           .limits = {.threads = command.threads}});
+    studio::Server server({.port = command.port, .page = page, .limits = {.threads = command.threads}});
     fmt::print("{}\n", server.address());
     std::fflush(stdout);
     fmt::print(stderr, "corank: the studio is at this address, for this user only; Ctrl-C ends it\n");
@@ -77,7 +66,7 @@ void add_studio(CLI::App& program, Action& action) {
   const auto command = std::make_shared<StudioCommand>();
   command->question.add_model(*sub);
   command->question.add_definitions(*sub);
-  sub->add_option("--port", command->port, "The port on 127.0.0.1; default: any that is free")->type_name("N");
+  add_option(*sub, "--port N", command->port, "The port on 127.0.0.1; default: any that is free");
   sub->add_flag("--no-browser", command->no_browser, "Print the address only, and open no browser");
   add_threads(*sub, command->threads);
   sub->footer(

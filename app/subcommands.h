@@ -1,11 +1,22 @@
 // The subcommands: each adds its options to the command line and, where it was chosen, leaves what is to be done in
-// `action`.
+// `action`. With this header their sources have what nearly all of them need.
 #pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 
 #include "corank/app/exit_status.h"
+#include "corank/app/limited_run.h"
+#include "corank/app/progress.h"
+#include "corank/app/question.h"
+#include "corank/app/shared_options.h"
+#include "corank/app/watch.h"
+#include "corank/result/files/result_file.h"
+#include "corank/result/values/words.h"
 
 namespace corank::app {
 

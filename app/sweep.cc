@@ -1,29 +1,19 @@
 // corank sweep: solves the sets of a family of mechanisms that differ in one constant and writes one HTML page about them,
 // with the result files and small multiples for a paper beside it.
-#include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 #include <set>
 
 #include "corank/app/box_files.h"
 #include "corank/app/family.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
 #include "corank/app/set_search.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/watch.h"
 #include "corank/report/html/family_page.h"
-#include "corank/report/html/page.h"
-#include "corank/report/html/page_words.h"
 #include "corank/report/pictures/figures.h"
-#include "corank/result/files/result_file.h"
 #include "corank/study/answer.h"
 #include "corank/study/early_searches.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model/model_error.h"
-#include "corank/symbolic/sets/algebrizer.h"
 
 namespace corank::app {
 namespace {
@@ -240,16 +230,13 @@ void add_sweep(CLI::App& program, Action& action) {
       "sweep", "Solve a family of mechanisms that differ in one constant, and write one page about it");
   const auto command = std::make_shared<SweepCommand>();
   command->question.add_model(*sub);
-  sub->add_option("-D", command->question.definitions,
-                  "NAME=FROM:TO:COUNT: give one constant COUNT equally spaced values from FROM to TO;\n"
-                  "NAME=EXPR: give another constant the same new value in all mechanisms; may be repeated")
-      ->type_name("NAME=FROM:TO:COUNT|NAME=EXPR")
-      ->allow_extra_args(false);
+  add_option(*sub, "-D NAME=FROM:TO:COUNT|NAME=EXPR", command->question.definitions,
+             "NAME=FROM:TO:COUNT: give one constant COUNT equally spaced values from FROM to TO;\n"
+             "NAME=EXPR: give another constant the same new value in all mechanisms; may be repeated");
   command->search.add_sets(*sub);
   command->search.limits.add_options(*sub, "each search");
   command->json.add(*sub, "the contents of the page");
-  sub->add_option("-o", command->folder, "Folder for index.html, the results and the figures; default: MODEL-sweep")
-      ->type_name("FOLDER");
+  add_option(*sub, "-o FOLDER", command->folder, "Folder for index.html, the results and the figures; default: MODEL-sweep");
   sub->footer(
       "Exit status: 0 done and complete, 1 bad input, 2 wrong usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Example: a link of Dextar shrinks from 1.6 to 0.9\n"

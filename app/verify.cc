@@ -1,23 +1,15 @@
 // corank verify: re-checks a result file against the model that it holds, with the independent checker.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <random>
 
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/app/watch.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/files/verification.h"
 #include "corank/result/values/claim_files.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
@@ -134,10 +126,9 @@ void add_verify(CLI::App& program, Action& action) {
   sub->add_flag("--require-proof", command->require_proof,
                 "Fail unless the file proves that its boxes hold all solutions in the search domain");
   add_threads(*sub, command->threads);
-  sub->add_option("--sample", command->sample,
-                  "Check only N boxes, chosen at random each time, and leave out the proof that no solution is missing;\n"
-                  "for files that take too long to check completely; 0: check all (default)")
-      ->type_name("N")
+  add_option(*sub, "--sample N", command->sample,
+             "Check only N boxes, chosen at random each time, and leave out the proof that no solution is missing;\n"
+             "for files that take too long to check completely; 0: check all (default)")
       ->check(CLI::NonNegativeNumber)
       ->excludes("--require-proof");
   add_time_limit(*sub, command->time_limit, "End the check after SECONDS");

@@ -1,7 +1,6 @@
 #include "corank/certify/newton.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "corank/certify/numeric.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "corank/certify/trigonometric.h"
-#include "corank/core/check.h"
 
 namespace corank::certify {
 namespace {

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <utility>
 
-#include "corank/certify/domain.h"
+#include "corank/certify/implied.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/check.h"
 #include "corank/core/cover.h"

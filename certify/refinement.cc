@@ -1,7 +1,6 @@
 #include "corank/certify/refinement.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "corank/certify/polynomial_values.h"
 #include "corank/core/check.h"

@@ -108,8 +108,17 @@ Enclosure power(const Enclosure& x, int p) {
 }
 
 namespace {
+
 // Beyond this a sine needs very many digits of pi; [−1, 1] is true as well.
 constexpr double kLargestArgument = 1e15;
+
+std::optional<Enclosure> common(Enclosure x, const Enclosure& y) { return x.intersect(y) ? std::optional(x) : std::nullopt; }
+
+// The hull of what is there of two branches.
+std::optional<Enclosure> hull_of(const std::optional<Enclosure>& a, const std::optional<Enclosure>& b) {
+  return a && b ? Enclosure::hull(*a, *b) : a ? a : b;
+}
+
 }  // namespace
 
 Enclosure sine(const Enclosure& x) {
@@ -148,37 +157,24 @@ Enclosure arc_cosine(const Enclosure& x) {
 }
 
 std::optional<Enclosure> divide(const Enclosure& num, const Enclosure& den, const Enclosure& within) {
-  Enclosure result = within;
-  if (!den.has_zero()) return result.intersect(quotient(num, den)) ? std::optional(result) : std::nullopt;
+  if (!den.has_zero()) return common(within, quotient(num, den));
   if (num.has_zero()) return within;  // 0·x = 0 holds for every x
   if (num.is_negative()) return divide(-num, -den, within);
   // num > 0, den ∋ 0: x ≥ num.lower/den.upper or x ≤ num.lower/den.lower.
-  const Enclosure least = num.lower_end();
-  Enclosure positive = within, negative = within;
-  bool has_positive = false, has_negative = false;
-  if (const Enclosure end = den.upper_end(); end.is_positive())
-    has_positive = positive.intersect(Enclosure::hull(quotient(least, end), Enclosure(kInfinity)));
-  if (const Enclosure end = den.lower_end(); end.is_negative())
-    has_negative = negative.intersect(Enclosure::hull(quotient(least, end), Enclosure(-kInfinity)));
-  if (has_positive && has_negative) return Enclosure::hull(positive, negative);
-  if (has_positive) return positive;
-  if (has_negative) return negative;
-  return std::nullopt;
+  const Enclosure least = num.lower_end(), from = den.lower_end(), to = den.upper_end();
+  std::optional<Enclosure> positive, negative;
+  if (to.is_positive()) positive = common(within, Enclosure::hull(quotient(least, to), Enclosure(kInfinity)));
+  if (from.is_negative()) negative = common(within, Enclosure::hull(quotient(least, from), Enclosure(-kInfinity)));
+  return hull_of(positive, negative);
 }
 
 std::optional<Enclosure> root(const Enclosure& y, int p, const Enclosure& within) {
   CORANK_CHECK(p >= 1);
-  Enclosure result = within;
-  if (p == 1) return result.intersect(y) ? std::optional(result) : std::nullopt;
+  if (p == 1) return common(within, y);
   if (p != 2) return within;  // rare: no information
   if (!y.may_be_nonnegative()) return std::nullopt;
   const Enclosure size = square_root(y);
-  Enclosure positive = within, negative = within;
-  const bool has_positive = positive.intersect(size), has_negative = negative.intersect(-size);
-  if (has_positive && has_negative) return Enclosure::hull(positive, negative);
-  if (has_positive) return positive;
-  if (has_negative) return negative;
-  return std::nullopt;
+  return hull_of(common(within, size), common(within, -size));
 }
 
 std::optional<Enclosure> inverse_cosine(const Enclosure& y, const Enclosure& within) {
@@ -191,8 +187,7 @@ std::optional<Enclosure> inverse_cosine(const Enclosure& y, const Enclosure& wit
   std::optional<Enclosure> hull;
   for (double k = std::floor(within.lo() / turn) - 1; k <= std::ceil(within.hi() / turn) + 1; ++k)
     for (const Enclosure& branch : {two_pi * Enclosure(k) - arc, two_pi * Enclosure(k) + arc}) {
-      Enclosure part = within;
-      if (part.intersect(branch)) hull = hull ? Enclosure::hull(*hull, part) : part;
+      hull = hull_of(hull, common(within, branch));
     }
   return hull;
 }
@@ -200,8 +195,7 @@ std::optional<Enclosure> inverse_cosine(const Enclosure& y, const Enclosure& wit
 std::optional<Enclosure> inverse_sine(const Enclosure& y, const Enclosure& within) {
   const Enclosure quarter = Enclosure(0.5) * Enclosure::pi();  // sin x = cos(x − π/2)
   const auto shifted = inverse_cosine(y, within - quarter);
-  Enclosure result = within;
-  return shifted && result.intersect(*shifted + quarter) ? std::optional(result) : std::nullopt;
+  return shifted ? common(within, *shifted + quarter) : std::nullopt;
 }
 
 }  // namespace corank::check

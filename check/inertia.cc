@@ -39,6 +39,14 @@ std::optional<Matrix> congruent(const Matrix& h, const Matrix& v) {
   return result;
 }
 
+// Takes multiples of row k from those below, so that nothing of their column k is left.
+void eliminate_below(std::size_t k, Matrix& a) {
+  for (std::size_t i = k + 1; i < a.size(); ++i) {
+    const Enclosure factor = -quotient(a[i][k], a[k][k]);
+    for (std::size_t j = k + 1; j < a.size(); ++j) a[i][j].add_product(factor, a[k][j]);
+  }
+}
+
 }  // namespace
 
 std::optional<Matrix> kernel_basis(const Matrix& a, const std::vector<int>& dependent, const std::vector<int>& free) {
@@ -106,10 +114,7 @@ std::optional<Inertia> inertia(const Matrix& t) {
   for (std::size_t k = 0; k < d.size(); ++k) {
     if (d[k][k].has_zero() || !d[k][k].is_bounded()) return std::nullopt;
     ++(d[k][k].is_positive() ? result.positive : result.negative);
-    for (std::size_t i = k + 1; i < d.size(); ++i) {
-      const Enclosure factor = -quotient(d[i][k], d[k][k]);
-      for (std::size_t j = k + 1; j < d.size(); ++j) d[i][j].add_product(factor, d[k][j]);
-    }
+    eliminate_below(k, d);
   }
   return result;
 }
@@ -133,10 +138,7 @@ int determinant_sign(std::vector<Sides> a) {
     std::swap(a[k], a[row]);
     for (Sides& r : a) std::swap(r[k], r[column]);
     if (a[k][k].is_negative()) sign = -sign;
-    for (std::size_t i = k + 1; i < a.size(); ++i) {
-      const Enclosure factor = -quotient(a[i][k], a[k][k]);
-      for (std::size_t j = k + 1; j < a.size(); ++j) a[i][j].add_product(factor, a[k][j]);
-    }
+    eliminate_below(k, a);
   }
   return sign;
 }

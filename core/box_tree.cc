@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

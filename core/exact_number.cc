@@ -6,7 +6,6 @@
 #include <limits>
 #include <ostream>
 #include <stdexcept>
-#include <utility>
 
 #include "corank/core/exact_number_node.h"
 

@@ -42,6 +42,13 @@ double root_down(double x, int p) {
   return r;
 }
 
+std::optional<Interval> common(Interval x, const Interval& y) { return x.intersect(y) ? std::optional(x) : std::nullopt; }
+
+// The hull of what is there of two branches.
+std::optional<Interval> hull_of(const std::optional<Interval>& positive, const std::optional<Interval>& negative) {
+  return positive && negative ? Interval::hull(*positive, *negative) : positive ? positive : negative;
+}
+
 }  // namespace
 
 Interval power(const Interval& x, int p) {
@@ -77,43 +84,30 @@ std::optional<Interval> square_root(const Interval& x) {
 
 std::optional<Interval> root(const Interval& x, int p, const Interval& within) {
   CORANK_CHECK(p >= 1);
-  Interval result = within;
-  if (p == 1) return result.intersect(x) ? std::optional(result) : std::nullopt;
+  if (p == 1) return common(within, x);
   if (p % 2 == 1) {
     const auto odd_up = [p](double a) { return a >= 0 ? root_up(a, p) : -root_down(-a, p); };
     const auto odd_down = [p](double a) { return a >= 0 ? root_down(a, p) : -root_up(-a, p); };
     const double lo = std::isfinite(x.lo()) ? odd_down(x.lo()) : x.lo();
     const double hi = std::isfinite(x.hi()) ? odd_up(x.hi()) : x.hi();
-    return result.intersect(Interval(lo, hi)) ? std::optional(result) : std::nullopt;
+    return common(within, Interval(lo, hi));
   }
   if (x.hi() < 0) return std::nullopt;
   const double large = p == 2 ? std::sqrt(x.hi()) : root_up(x.hi(), p);
   const double small = x.lo() <= 0 ? 0.0 : p == 2 ? sqrt_down(x.lo()) : root_down(x.lo(), p);
   // ±[small, large] ∩ within: the hull of what is left of the two branches.
-  Interval positive = within, negative = within;
-  const bool has_positive = positive.intersect(Interval(small, large));
-  const bool has_negative = negative.intersect(Interval(-large, -small));
-  if (has_positive && has_negative) return Interval::hull(positive, negative);
-  if (has_positive) return positive;
-  if (has_negative) return negative;
-  return std::nullopt;
+  return hull_of(common(within, Interval(small, large)), common(within, Interval(-large, -small)));
 }
 
 std::optional<Interval> divide(const Interval& num, const Interval& den, const Interval& within) {
-  Interval result = within;
-  if (den.lo() > 0) return result.intersect(divide_by_positive(num, den)) ? std::optional(result) : std::nullopt;
-  if (den.hi() < 0) return result.intersect(divide_by_positive(-num, -den)) ? std::optional(result) : std::nullopt;
+  if (den.lo() > 0) return common(within, divide_by_positive(num, den));
+  if (den.hi() < 0) return common(within, divide_by_positive(-num, -den));
   if (num.contains_zero()) return within;  // 0·x = 0 holds for every x
   if (num.hi() < 0) return divide(-num, -den, within);
   // num > 0, den = [dl, dh] ∋ 0: x ≥ num.lo/dh or x ≤ num.lo/dl.
   const double dl = den.lo(), dh = den.hi(), nl = num.lo();
-  Interval positive = within, negative = within;
-  const bool has_positive = dh > 0 && positive.intersect(Interval(-((-nl) / dh), kInf));
-  const bool has_negative = dl < 0 && negative.intersect(Interval(-kInf, nl / dl));
-  if (has_positive && has_negative) return Interval::hull(positive, negative);
-  if (has_positive) return positive;
-  if (has_negative) return negative;
-  return std::nullopt;
+  return hull_of(dh > 0 ? common(within, Interval(-((-nl) / dh), kInf)) : std::nullopt,
+                 dl < 0 ? common(within, Interval(-kInf, nl / dl)) : std::nullopt);
 }
 
 std::ostream& operator<<(std::ostream& out, const Interval& x) {

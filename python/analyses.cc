@@ -94,9 +94,7 @@ py::tuple searched(const solve::Options& search, const py::object& progress, Wor
 
 auto shown_radius(Watcher& watcher, const char* what) {
   return [&watcher, what](double lower, std::optional<double> upper, std::uint64_t count) {
-    watcher.show({"clearance", -1,
-                  upper ? fmt::format("radius in [{:.5g}, {:.5g}], {} {}", lower, *upper, count, what)
-                        : fmt::format("radius at least {:.5g}, {} {}", lower, count, what)});
+    watcher.show({"clearance", -1, analyze::progress_text(lower, upper, count, what)});
   };
 }
 

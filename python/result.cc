@@ -16,7 +16,6 @@
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/summary.h"
 #include "corank/result/values/tallies.h"
-#include "corank/result/values/words.h"
 
 namespace corank::python {
 

@@ -6,9 +6,7 @@
 #include <csignal>
 
 #include "corank/python/bindings.h"
-#include "corank/report/html/live_page.h"
 #include "corank/studio/server.h"
-#include "corank/studio/template_models.h"
 
 namespace corank::python {
 namespace {
@@ -17,10 +15,7 @@ namespace {
 void serve_studio(const std::string& file, const std::string& text, std::uint16_t port, int threads,
                   const std::function<void(const std::string&)>& on_address) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  report::StudioPage page{.file = file, .text = text};
-  for (const studio::TemplateModel& model : studio::template_models()) page.templates.emplace_back(model.name, model.text);
-  studio::Server server(
-      {.port = port, .page = [&page] { return report::studio_page(page); }, .limits = {.threads = threads}});
+  studio::Server server({.port = port, .page = {.file = file, .text = text}, .limits = {.threads = threads}});
   on_address(server.address());
   const py::gil_scoped_release unlocked;
   server.run();

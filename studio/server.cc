@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 
+#include "corank/studio/template_models.h"
 #include "corank/studio/window.h"
 
 namespace corank::studio {
@@ -220,7 +221,9 @@ class Server::Impl {
     }
     ::fcntl(house_.acceptor.native_handle(), F_SETFD, FD_CLOEXEC);
     house_.host = fmt::format("127.0.0.1:{}", house_.acceptor.local_endpoint().port());
-    house_.page = options.page();
+    report::StudioPage page = options.page;
+    for (const TemplateModel& model : template_models()) page.templates.emplace_back(model.name, model.text);
+    house_.page = report::studio_page(page);
   }
 
   std::string address() const { return fmt::format("http://{}/?token={}", house_.host, house_.token); }

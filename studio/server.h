@@ -1,7 +1,7 @@
 // The studio's server: one page on 127.0.0.1, behind a random token. Each window that shows it has a process of its own that
 // computes (worker.h), which ends with the window.
 //
-//   studio::Server server({.page = [] { return html; }});
+//   studio::Server server({.page = {.file = "dextar.cuik", .text = text}});
 //   std::puts(server.address().c_str());  // http://127.0.0.1:41999/?token=…
 //   server.run();
 //
@@ -13,11 +13,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "corank/report/html/live_page.h"
 #include "corank/studio/session.h"
 
 namespace corank::studio {
@@ -29,8 +29,8 @@ class ServerError : public std::runtime_error {
 };
 
 struct ServerOptions {
-  std::uint16_t port = 0;             ///< 0: any that is free
-  std::function<std::string()> page;  ///< HTML
+  std::uint16_t port = 0;     ///< 0: any that is free
+  report::StudioPage page{};  ///< without its templates
   SessionLimits limits{};
 };
 

@@ -13,7 +13,6 @@
 #include "corank/core/requirement.h"
 #include "corank/report/html/live_page.h"
 #include "corank/report/html/page.h"
-#include "corank/report/html/page_data.h"
 #include "corank/report/pictures/set_look.h"
 #include "corank/result/files/verification.h"
 #include "corank/solve/search/solve.h"
@@ -66,9 +65,10 @@ class Answer {
     question_ = {
         .model = std::move(model.mechanism), .constants = request_.constants, .assembly = std::move(model.assembly)};
     derivation_ = symbolic::derive(question_.model);
-    if (request_.want == Request::Want::report) return make_report();
-    pass(0);
-    if (request_.fine) pass(1);
+    const bool for_page = request_.want == Request::Want::report;
+    if (!for_page) pass(0);
+    if (for_page || request_.fine) pass(1);
+    if (for_page) return make_report();
     if (request_.colours == Request::Colours::aspects && !stop_) say_aspects();
     if (request_.colours == Request::Colours::requirements && !stop_) say_requirements();
     if (!stop_) say({{"event", "done"}, {"complete", complete_}, {"seconds", seconds_since(begin_)}});
@@ -87,7 +87,7 @@ class Answer {
 
   void say_model(const study::Model& model) const {
     Json constants = Json::array(), sets = Json::array();
-    const report::ConstantValues values = report::constant_values(model.mechanism);
+    const std::map<std::string, double> values = symbolic::constant_values(model.mechanism);
     for (const symbolic::Constant& c : model.mechanism.constants()) {
       Json entry = {{"name", c.name}, {"value", values.at(c.name)}, {"text", c.value.text()}};
       if (c.tolerance)
@@ -124,8 +124,7 @@ class Answer {
       } catch (const symbolic::ModelError& error) {
         refused_.insert(set);
         found_.erase(set);
-        Json event = error_event(error);
-        say({{"event", "refused"}, {"set", set}, {"message", event["message"]}});
+        say({{"event", "refused"}, {"set", set}, {"message", error_event(error)["message"]}});
         continue;
       }
       if (!stop_ && Clock::now() - last_picture_ > kBetweenPictures) say_picture(number);
@@ -187,6 +186,7 @@ class Answer {
   }
 
   void say_picture(int pass) {
+    if (request_.want == Request::Want::report) return;
     std::vector<const report::SetView*> views;
     for (const std::string& set : request_.sets)
       if (std::ranges::find(news_, set) != news_.end()) views.push_back(&*found_.at(set).view);
@@ -244,15 +244,6 @@ class Answer {
   }
 
   void make_report() {
-    for (const std::string& set : order()) {
-      if (stop_) return;
-      try {
-        search(set, 1);
-      } catch (const symbolic::ModelError& error) {
-        found_.erase(set);
-        say({{"event", "refused"}, {"set", set}, {"message", error.what()}});
-      }
-    }
     std::vector<report::SetView> views;
     for (const std::string& set : request_.sets) {
       const auto at = found_.find(set);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "corank/certify/kernel_bound.h"
 #include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/result/values/sentences.h"
@@ -31,9 +30,7 @@ std::string kernel_of(const Question& q) {
 // What a solution means for a robot, one for each point of a set of dimension 0: values of its joints, poses of its links.
 void describe_states(const kinematics::Assembly& assembly, result::Result& result) {
   result.states.clear();
-  std::map<std::string, double> constants;
-  for (const symbolic::Constant& c : assembly.mechanism.constants())
-    constants[c.name] = symbolic::evaluate(c.value, constants);
+  const std::map<std::string, double> constants = symbolic::constant_values(assembly.mechanism);
   for (const CoverBox& point : result.cover.points) {
     std::map<std::string, double> values = constants;
     for (std::size_t v = 0; v < point.box.size(); ++v) values[result.variables[v].name] = point.box[v].mid();

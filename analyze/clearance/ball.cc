@@ -10,6 +10,7 @@
 #include <regex>
 #include <set>
 
+#include "corank/kinematics/robot/vectors.h"
 #include "corank/symbolic/model/evaluate.h"
 #include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/limits.h"
@@ -29,7 +30,7 @@ class BallMaker {
   BallMaker(const study::Question& question, const BallOptions& options) : question_(question), options_(options) {
     for (const symbolic::Limit& limit : effective_limits(question_.model)) limited_.insert(limit.coordinate);
     question_.model = center_model_ = model_ = limits_as_ranges(question_.model);
-    for (const symbolic::Constant& c : model_.constants()) constants_[c.name] = symbolic::evaluate(c.value, constants_);
+    constants_ = symbolic::constant_values(model_);
   }
 
   Ball make();
@@ -266,36 +267,7 @@ Ball BallMaker::make() {
   return ball_;
 }
 
-using symbolic::Expression;
-using symbolic::ModelError;
-
 constexpr const char* kExpected = "a product of turns about the axes, such as Rz(1/5)*Ry(pi/10)*Rx(3/10)";
-
-Rotation turn(int axis, const Expression& angle) {
-  Rotation r;
-  const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-  for (auto& row : r) row.fill(Expression(0));
-  r[axis][axis] = Expression(1);
-  r[j][j] = r[k][k] = cos(angle);
-  r[k][j] = sin(angle);
-  r[j][k] = -sin(angle);
-  return r;
-}
-
-Rotation product(const Rotation& a, const Rotation& b) {
-  const auto is = [](const Expression& e, int n) { return same_tree(e, Expression(n)); };
-  Rotation result;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      std::vector<Expression> sum;
-      for (int k = 0; k < 3; ++k) {
-        if (is(a[i][k], 0) || is(b[k][j], 0)) continue;
-        sum.push_back(is(a[i][k], 1) ? b[k][j] : is(b[k][j], 1) ? a[i][k] : a[i][k] * b[k][j]);
-      }
-      result[i][j] = Expression::node(Expression::Kind::sum, sum);
-    }
-  return result;
-}
 
 // The end of the parentheses that open at `from`; npos where they stay open.
 std::size_t closing(const std::string& text, std::size_t from) {
@@ -348,19 +320,20 @@ Ball make_ball(const study::Question& question, const BallOptions& options) { re
 Rotation parse_rotation(const std::string& text) {
   std::string rest = std::regex_replace(text, std::regex("\\s"), "");
   const auto refuse = [&] { return ModelError({"orientation", 0, 0}, "'" + text + "' is not a rotation", kExpected); };
-  std::optional<Rotation> result;
+  std::optional<kinematics::Pose> result;
   while (!rest.empty()) {
     if (result && rest[0] != '*') throw refuse();
     if (result) rest.erase(0, 1);
     const std::size_t axis = rest.size() > 3 && rest[0] == 'R' && rest[2] == '(' ? std::string("xyz").find(rest[1]) : 3;
     const std::size_t end = axis < 3 ? closing(rest, 2) : std::string::npos;
     if (end == std::string::npos) throw refuse();
-    const Rotation r = turn(static_cast<int>(axis), symbolic::parse_expression(rest.substr(3, end - 3), "orientation"));
-    result = result ? product(*result, r) : r;
+    const kinematics::Pose turn =
+        kinematics::rotation(static_cast<int>(axis), symbolic::parse_expression(rest.substr(3, end - 3), "orientation"));
+    result = result ? *result * turn : turn;
     rest.erase(0, end + 1);
   }
   if (!result) throw refuse();
-  return *result;
+  return result->rotation;
 }
 
 }  // namespace corank::analyze

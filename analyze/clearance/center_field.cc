@@ -35,8 +35,7 @@ const Coordinate& length(const study::Question& question, const std::string& nam
 
 // In doubles, and within the model's range.
 Interval interval(const study::Question& question, const NamedRange& range) {
-  std::map<std::string, double> constants;
-  for (const symbolic::Constant& c : question.model.constants()) constants[c.name] = symbolic::evaluate(c.value, constants);
+  const std::map<std::string, double> constants = symbolic::constant_values(question.model);
   const Coordinate& c = length(question, range.name);
   double lower = symbolic::evaluate(range.lower, constants), upper = symbolic::evaluate(range.upper, constants);
   if (c.has_range) {

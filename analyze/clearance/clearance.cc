@@ -4,10 +4,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "corank/analyze/sets/components.h"
-#include "corank/analyze/sets/nearest.h"
 #include "corank/certify/angle.h"
 #include "corank/core/rounding.h"
 #include "corank/result/files/verification.h"

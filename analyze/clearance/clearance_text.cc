@@ -26,6 +26,12 @@ std::string rounded(double x, bool up) {
   return fmt::format("{:.6g}", shown);
 }
 
+std::string progress_text(double lower, const std::optional<double>& upper, std::uint64_t count, const std::string& what) {
+  const std::string radius =
+      upper ? fmt::format("radius in [{:.5g}, {:.5g}]", lower, *upper) : fmt::format("radius at least {:.5g}", lower);
+  return fmt::format("{}, {} {}", radius, count, what);
+}
+
 std::string value_lines(const std::vector<CoordinateValue>& values) {
   std::string text;
   for (const CoordinateValue& v : values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());

@@ -12,6 +12,7 @@
 
 #include "corank/core/check.h"
 #include "corank/core/threads.h"
+#include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/model/model_file.h"
 
 namespace corank::analyze {
@@ -23,10 +24,7 @@ using symbolic::ModelError;
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream stream(line + ",");  // so that an empty last one counts
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
-    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-  }
+  for (std::string cell; std::getline(stream, cell, ',');) cells.emplace_back(symbolic::trimmed(cell));
   return cells;
 }
 

@@ -31,12 +31,6 @@ constexpr std::uint64_t kMostToNarrow = 10'000;
 
 Expression number(const ExactNumber& x) { return symbolic::parse_expression(x.text(), "number"); }
 
-kinematics::Pose pose_of(const Rotation& rotation, const std::array<Expression, 3>& position) {
-  kinematics::Pose pose;
-  for (std::size_t i = 0; i < 3; ++i) pose.rotation[i] = rotation[i], pose.translation[i] = position[i];
-  return pose;
-}
-
 // Boxes that hold one solution each, as narrow as doubles make them, or nearly; as they are where that search says anything
 // else.
 std::vector<CoverBox> narrowed(solve::Prepared prepared, const std::vector<CoverBox>& isolated,
@@ -244,7 +238,7 @@ symbolic::Mechanism PostureFinder::Parts::six_held(const Values& values, const R
 symbolic::Mechanism PostureFinder::Parts::hand_held(const Values& values, const Rotation& orientation) const {
   kinematics::Robot held = *robot();
   std::erase_if(held.outputs, [&](const kinematics::Output& o) { return o.link == *hand; });
-  held.fix(held.links[0].name, held.links[*hand].name, pose_of(orientation, origin_at(values, orientation)));
+  held.fix(held.links[0].name, held.links[*hand].name, {orientation, origin_at(values, orientation)});
   return kinematics::assemble(held).mechanism;
 }
 
@@ -253,7 +247,7 @@ std::optional<symbolic::Mechanism> PostureFinder::Parts::coordinates_held(const 
   symbolic::Mechanism model = question.question.model;
   if (orientation) {
     kinematics::Robot kept = *robot();
-    kept.outputs[turned].kept = pose_of(*orientation, {0, 0, 0});
+    kept.outputs[turned].kept = kinematics::Pose{*orientation, {0, 0, 0}};
     model = kinematics::assemble(kept).mechanism;
   }
   model = symbolic::limits_as_ranges(std::move(model));

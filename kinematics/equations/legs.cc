@@ -43,11 +43,7 @@ class Legs {
   }
 
   /// Nobody asks where the body is, or draws it.
-  bool is_plain(std::size_t body) const {
-    for (std::size_t l = 0; l < robot_.links.size(); ++l)
-      if (bodies_.of_link[l] == body && !robot_.links[l].shapes.empty()) return false;
-    return !bodies_.has_output(robot_, body);
-  }
+  bool is_plain(std::size_t body) const { return !bodies_.has_shapes(robot_, body) && !bodies_.has_output(robot_, body); }
 
   std::optional<Joint> leg(const BodyJoint& slide) const {
     const Joint& of = robot_.joints[slide.index];

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "corank/kinematics/equations/drafting.h"
 
@@ -31,7 +30,7 @@ class Portrayal : Drafter {
       }
     const bool solid = add_shapes();
     for (std::size_t body = 1; body < bodies_.size(); ++body)
-      if (!solid || !has_shapes(body)) add_body(body);
+      if (!solid || !bodies_.has_shapes(robot_, body)) add_body(body);
     for (const BodyJoint& j : bodies_.joints) add_joint(j);
     for (const BodyJoint& j : bodies_.idle_rods) add_joint(j);
     if (!effectors_.empty()) draft_.part(Part::effector, effectors_);
@@ -137,12 +136,6 @@ class Portrayal : Drafter {
     for (const Corner& c : corners)
       if (distance(c) > 0.2 * farthest) list.push_back(c);
     return list.size() < 3 ? corners : list;
-  }
-
-  bool has_shapes(std::size_t body) const {
-    for (std::size_t l = 0; l < robot_.links.size(); ++l)
-      if (bodies_.of_link[l] == body && !robot_.links[l].shapes.empty()) return true;
-    return false;
   }
 
   /// The solids of the robot's file, unless they are too many to move smoothly.

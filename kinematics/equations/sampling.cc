@@ -6,8 +6,6 @@
 #include "corank/core/dense.h"
 #include "corank/core/system.h"
 #include "corank/kinematics/equations/assembly.h"
-#include "corank/symbolic/sets/algebrizer.h"
-#include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::kinematics {
 namespace {

@@ -10,14 +10,12 @@ using symbolic::in_quotes;
 using symbolic::nearest_name;
 using symbolic::suggestion;
 
-const char* const kColours = "red, green, blue, purple, cyan, yellow, white, black, grey or color (r, g, b)";
 const std::vector<std::string> kColourWords{"red",    "green", "blue",  "purple", "cyan",
                                             "yellow", "white", "black", "grey",   "color"};
+const std::string kColours = symbolic::listed(kColourWords, " or ") + " (r, g, b)";
 const std::vector<std::string> kKinds{"revolute",      "prismatic", "cylindrical", "universal",   "spherical",   "planar",
                                       "parallelogram", "fix",       "sph_sph",     "sph_prs_sph", "uni_prs_uni", "gear"};
-const char* const kKindList =
-    "revolute, prismatic, cylindrical, universal, spherical, planar, parallelogram, fix, sph_sph, sph_prs_sph, uni_prs_uni "
-    "or gear";
+const std::string kKindList = symbolic::listed(kKinds, " or ");
 const std::vector<std::string> kOptions{"range",  "limits",   "reference", "zero",        "length", "radius",
                                         "avoid",  "actuated", "velocity",  "torque",      "force",  "effort",
                                         "hidden", "damping",  "friction",  "granularity", "mimic"};
@@ -34,17 +32,8 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
 
 }  // namespace
 
-std::string PartFault::name_found() const {
-  std::size_t n = 0;
-  const auto in_name = [&](char c) {
-    return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (n > 0 && c >= '0' && c <= '9');
-  };
-  while (n < rest.size() && in_name(rest[n])) ++n;
-  return std::string(rest.substr(0, n));
-}
-
 void PartFault::no_joint() const {
-  const std::string name = name_found();
+  const std::string name = symbolic::name_at(rest);
   if (name.empty()) found_instead_of(std::string("a joint, kind : link points link points, or a section"));
   const std::string kind = nearest_name(name, kKinds);
   if (!parts.last_joint.empty() && parts.robot.find_link(parts.resolve(name)) >= 0 && kind.empty())
@@ -79,13 +68,13 @@ void PartFault::no_second_point() const {
 }
 
 void PartFault::no_colour() const {
-  const std::string name = name_found();
+  const std::string name = symbolic::name_at(rest);
   if (name.empty()) found_instead_of(kColours);
   say(in_quotes(name) + " is not a colour", kColours + suggestion(name, kColourWords));
 }
 
 void PartFault::no_output_kind() const {
-  const std::string name = name_found();
+  const std::string name = symbolic::name_at(rest);
   const std::string expectation =
       "position of link.point, orientation of link, pose of link, direction of link (x, y, z) or "
       "joint name";
@@ -101,9 +90,7 @@ void PartFault::no_dh_cell() const {
 }
 
 void PartFault::unknown_part_section() const {
-  std::string title = parts.section_title;
-  const auto first = title.find_first_not_of(" \t"), last = title.find_last_not_of(" \t");
-  title = first == std::string::npos ? "" : title.substr(first, last - first + 1);
+  const std::string title(symbolic::trimmed(parts.section_title));
   throw symbolic::ModelError(
       parts.section_where, "section [" + symbolic::shortened(title) + "] is unknown beside [LINKS]",
       "[CONSTANTS], [LINKS], [JOINTS], [DH], [INPUTS], [OUTPUTS], [REQUIREMENTS], [INCLUDE], [EQUATIONS], "

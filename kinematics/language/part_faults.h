@@ -13,8 +13,6 @@ namespace corank::kinematics {
 struct PartFault : symbolic::Fault {
   const PartBuilder& parts;
 
-  /// The name that the rest begins with; empty where it begins with something else.
-  std::string name_found() const;
   [[noreturn]] void no_joint() const;
   [[noreturn]] void no_joint_link() const;
   [[noreturn]] void no_joint_colon() const;
@@ -104,6 +102,11 @@ CORANK_FAULT(grammar::output_what, fault.no_output_kind())
 CORANK_FAULT(grammar::section_start, fault.say("found " + symbolic::describe_start(fault.rest) + " before the first section",
                                                "a section such as [LINKS] or [JOINTS]"))
 #undef CORANK_FAULT
+
+template <typename Rule>
+[[noreturn]] void raise_fault(const symbolic::Fault& fault, const PartBuilder& builder) {
+  PartFaultOf<Rule>::raise({fault, builder});
+}
 
 /// What after a shape in the line of a link is no link of its own.
 [[noreturn]] void refuse_word_behind_link(const std::string& word, const std::string& link, const SourceLocation& where);

@@ -6,6 +6,7 @@
 #include "corank/symbolic/model/expression_actions.h"
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/model/parse_text.h"
 
 namespace corank::kinematics {
 namespace {
@@ -15,7 +16,6 @@ using symbolic::declare;
 using symbolic::in_quotes;
 using symbolic::ModelError;
 using symbolic::place;
-using symbolic::TextInput;
 
 /// What a token means.
 template <typename Rule>
@@ -133,34 +133,13 @@ void end_shape(PartBuilder& b) {
   b.shape_colour.clear();
   b.hidden = false;
 }
-CORANK_ACTION0(body_end, {
-  b.finish_body();
-  end_shape(b);
-})
-CORANK_ACTION0(box_end, {
-  b.finish_box();
-  end_shape(b);
-})
-CORANK_ACTION0(prism_end, {
-  b.finish_prism();
-  end_shape(b);
-})
-CORANK_ACTION0(sphere_end, {
-  b.finish_solid(Shape::Kind::sphere);
-  end_shape(b);
-})
-CORANK_ACTION0(cylinder_end, {
-  b.finish_solid(Shape::Kind::cylinder);
-  end_shape(b);
-})
-CORANK_ACTION0(line_end, {
-  b.finish_solid(Shape::Kind::polygon);
-  end_shape(b);
-})
-CORANK_ACTION0(segments_end, {
-  b.finish_segments();
-  end_shape(b);
-})
+CORANK_ACTION0(body_end, { b.finish_body(), end_shape(b); })
+CORANK_ACTION0(box_end, { b.finish_box(), end_shape(b); })
+CORANK_ACTION0(prism_end, { b.finish_prism(), end_shape(b); })
+CORANK_ACTION0(sphere_end, { b.finish_solid(Shape::Kind::sphere), end_shape(b); })
+CORANK_ACTION0(cylinder_end, { b.finish_solid(Shape::Kind::cylinder), end_shape(b); })
+CORANK_ACTION0(line_end, { b.finish_solid(Shape::Kind::polygon), end_shape(b); })
+CORANK_ACTION0(segments_end, { b.finish_segments(), end_shape(b); })
 CORANK_ACTION(segment_point_end, { b.points.push_back({b.pop_vector(), {}, place(in, b)}); })
 
 // Links.
@@ -283,26 +262,6 @@ CORANK_ACTION0(output_end, { b.finish_output(); })
 #undef CORANK_ACTION
 #undef CORANK_ACTION0
 
-/// Turns a failed must<Rule> into the ModelError that PartFaultOf<Rule> words.
-template <typename Rule>
-struct Control : peg::normal<Rule> {
-  /// Comments may begin where the grammar looks ahead, without actions.
-  template <typename AnyInput>
-  static void start(const AnyInput& in, PartBuilder& builder) {
-    if constexpr (std::is_same_v<Rule, symbolic::grammar::block_comment_rest>) {
-      builder.comment_where = place(in, builder);
-      builder.comment_where.column -= 2;
-    }
-  }
-  template <typename AnyInput>
-  [[noreturn]] static void raise(const AnyInput& in, PartBuilder& builder) {
-    const bool unfinished_comment = std::is_same_v<Rule, symbolic::grammar::block_comment_rest>;
-    const SourceLocation where = unfinished_comment ? builder.comment_where : place(in, builder);
-    PartFaultOf<Rule>::raise({{builder, where, std::string_view(in.current(), in.size())}, builder});
-    throw std::logic_error("a fault that says nothing");
-  }
-};
-
 /// In UTF-8, if the text is in Latin 1.
 std::string from_latin_1(std::string_view text) {
   std::string result;
@@ -324,20 +283,13 @@ bool is_utf8(std::string_view text) {
 }
 
 void parse_text(std::string_view text, PartBuilder& builder) {
-  if (text.size() > symbolic::kMaxFileBytes)
-    throw ModelError({builder.file, 0, 0}, "the text has more than " + std::to_string(symbolic::kMaxFileBytes) + " bytes",
-                     "a smaller robot");
   std::string converted;  // some of the suite's files are older than UTF-8
   if (std::filesystem::path(builder.file).extension() == ".world" && !is_utf8(text)) {
     converted = from_latin_1(text);
     text = converted;
   }
   builder.text = text;
-  TextInput plain(text.data(), text.data() + text.size(), "");
-  peg::parse<symbolic::grammar::plain_text, peg::nothing, Control>(plain, builder);
-  TextInput in(text.data(), text.data() + text.size(), "");
-  if (!peg::parse<grammar::parts, Action, Control>(in, builder))
-    throw std::logic_error("a grammar that fails without a fault");
+  symbolic::parse_text<grammar::parts, Action>(text, builder);
 }
 
 /// What has_parts() looks for, and what may hold anything else. A quotation mark without its partner is no fault here.

@@ -254,6 +254,12 @@ std::optional<Vec> carried_over(const Vec& known, const BodyEnd& near, const Bod
   return ex(algebra.sign(algebra.clean(dot(known, near.axis)))) * far.axis;
 }
 
+bool Bodies::has_shapes(const Robot& robot, std::size_t body) const {
+  for (std::size_t l = 0; l < robot.links.size(); ++l)
+    if (of_link[l] == body && !robot.links[l].shapes.empty()) return true;
+  return false;
+}
+
 bool Bodies::has_output(const Robot& robot, std::size_t body) const {
   return std::ranges::any_of(robot.outputs, [&](const Output& o) {
     return o.kind != Output::Kind::joint && (of_link[o.link] == body || of_link[o.relative_to] == body);

@@ -55,6 +55,7 @@ struct Bodies {
   std::size_t link_of(std::size_t body) const { return std::ranges::find(of_link, body) - of_link.begin(); }
   /// Is a body's place or orientation asked for, or another one's relative to it?
   bool has_output(const Robot& robot, std::size_t body) const;
+  bool has_shapes(const Robot& robot, std::size_t body) const;
 };
 
 /// From body to body: step(j, near, far) for each of these joints (in Bodies::joints) on each body that is reached, near

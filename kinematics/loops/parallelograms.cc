@@ -4,8 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <numeric>
-#include <optional>
 #include <set>
 
 namespace corank::kinematics {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <toml++/toml.h>
-#include <algorithm>
 #include <set>
 
 #include "corank/report/gallery/entry.h"

@@ -14,7 +14,7 @@
 #include "corank/result/values/tallies.h"
 #include "corank/result/values/words.h"
 #include "corank/symbolic/model/display_name.h"
-#include "corank/symbolic/velocity/velocity_equation.h"
+#include "corank/symbolic/model/evaluate.h"
 #include "corank/symbolic/writing/mathml.h"
 
 namespace corank::report {
@@ -62,7 +62,7 @@ std::string family_model(const std::vector<FamilyMember>& members, const FamilyO
   const symbolic::Mechanism& first = members.at(0).mechanism;
   const auto member_of = [&](const FamilyMember& member) {
     return Json{{"text", member.value},
-                {"value", constant_values(member.mechanism).at(options.constant)},
+                {"value", symbolic::constant_values(member.mechanism).at(options.constant)},
                 {"sets", each(member.sets, [&](const SetView& view) { return set_of(view, options.axes); })}};
   };
   const Json model = {{"model", first.name()},

@@ -9,7 +9,6 @@
 #include "corank/result/values/words.h"
 #include "corank/symbolic/model/display_name.h"
 #include "corank/symbolic/model/model_file.h"
-#include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::report {
 namespace {

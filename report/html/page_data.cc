@@ -32,7 +32,7 @@ std::string operation(const Expression& e) {
 
 // An expression of a drawing: a number, where it has a value without coordinates; "name" for a coordinate; ["+", …],
 // ["*", …], ["/", a, b], ["^", a, b], ["-", a], ["sin", a] …
-Json tree(const Expression& e, const ConstantValues& constants) {
+Json tree(const Expression& e, const std::map<std::string, double>& constants) {
   if (const double x = evaluate(e, constants); !std::isnan(x)) return x;
   if (e.kind() == Kind::symbol) return e.name();
   Json node = {operation(e)};
@@ -64,7 +64,7 @@ Json coordinates(const symbolic::Mechanism& mechanism, const System& system) {
 
 Json drawing(const symbolic::Mechanism& mechanism) {
   const symbolic::Drawing& d = mechanism.drawing();
-  const ConstantValues constants = constant_values(mechanism);
+  const std::map<std::string, double> constants = symbolic::constant_values(mechanism);
   const auto tree_of = [&](const Expression& e) { return tree(e, constants); };
   const auto point = [&](const symbolic::DrawingPoint& p) {
     Json entry = {{"name", p.name}, {"label", label(p.name)}, {"at", each(p.coordinates, tree_of)}};
@@ -151,12 +151,6 @@ Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& de
               {"points", points(result)},
               {"motions", motions(view)}});
   return set;
-}
-
-ConstantValues constant_values(const symbolic::Mechanism& mechanism) {
-  ConstantValues values;
-  for (const symbolic::Constant& c : mechanism.constants()) values[c.name] = evaluate(c.value, values);
-  return values;
 }
 
 std::string script_safe(std::string text) {

@@ -2,7 +2,6 @@
 // (SetView::drawn), all of them, in the result's order.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -10,10 +9,6 @@
 #include "corank/symbolic/velocity/velocity_equation.h"
 
 namespace corank::report {
-
-/// Constants in doubles: for pictures, not for proofs.
-using ConstantValues = std::map<std::string, double>;
-ConstantValues constant_values(const symbolic::Mechanism& mechanism);
 
 /// JSON that may stand inside <script>: without "<", since "</script" ends one and "<!--<script" makes the next end not
 /// count.

@@ -8,7 +8,6 @@
 #include "corank/report/html/page_data.h"
 #include "corank/report/html/page_words.h"
 #include "corank/report/html/template_data.h"
-#include "corank/result/files/verification.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/singularity_system.h"
 

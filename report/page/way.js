@@ -1,4 +1,5 @@
 // A curve's boxes in the order in which one passes them. It makes motions for pictures and proves nothing.
+import {dot} from "./mechanism.js";
 
 // Which boxes of a list may touch a box of it: those in the neighbouring cells of a grid over a few variables.
 class Neighbours {
@@ -57,7 +58,7 @@ export function wayThrough(set, boxes, start) {
   const seen = (from, box, towards) => {
     const along = step(from, box),
       length = Math.hypot(...along);
-    const cosine = towards && length > 0 ? along.reduce((sum, x, j) => sum + x * towards[j], 0) / length : 1;
+    const cosine = towards && length > 0 ? dot(along, towards) / length : 1;
     return {box, along, length, cosine, cost: length * (2 - cosine)};
   };
   // Of these boxes the one to go to: not passed, near and straight on.

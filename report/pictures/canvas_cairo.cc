@@ -7,7 +7,6 @@
 
 #include "corank/report/pictures/layout.h"
 #include "corank/report/pictures/portrait.h"
-#include "corank/result/files/result_file.h"
 
 namespace corank::report {
 namespace {

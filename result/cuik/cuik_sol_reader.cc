@@ -4,20 +4,18 @@
 #include <set>
 
 #include "corank/result/cuik/cuik_files.h"
+#include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/model/text_file.h"
 
 namespace corank::result {
 namespace {
 
+using symbolic::trimmed;
+
 constexpr std::string_view kBlanks = " \t\r\n\f\v";
 
 bool is_blank(char c) { return kBlanks.find(c) != std::string_view::npos; }
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlanks), last = text.find_last_not_of(kBlanks);
-  return first == std::string_view::npos ? std::string_view{} : text.substr(first, last - first + 1);
-}
 
 // Short, printable, in quotes.
 std::string shown(std::string_view text) {

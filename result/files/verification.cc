@@ -13,7 +13,6 @@
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/summary.h"
 #include "corank/result/values/words.h"
-#include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/set_parts.h"
 #include "corank/symbolic/sets/velocity_blocks.h"

@@ -96,19 +96,6 @@ int turns(const Interval& enclosure, double angle) {
 
 }  // namespace
 
-std::string noun(std::size_t n, const std::string& word) {
-  if (n == 1) return word;
-  return word.ends_with('y') ? word.substr(0, word.size() - 1) + "ies" : word + (word.ends_with('x') ? "es" : "s");
-}
-
-std::string counted(std::size_t n, const std::string& word) { return std::to_string(n) + " " + noun(n, word); }
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
-}
-
 std::string capitalized(std::string sentence) {
   sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
   return sentence;

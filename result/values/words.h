@@ -10,13 +10,13 @@
 #include "corank/core/exact_point.h"
 #include "corank/core/interval.h"
 #include "corank/core/system.h"
+#include "corank/symbolic/model/expression_words.h"
 
 namespace corank::result {
 
-/// "box" of 1, else "boxes": the plural of an English noun, by its last letter.
-std::string noun(std::size_t n, const std::string& word);
-/// "1 box", "2 inequalities".
-std::string counted(std::size_t n, const std::string& word);
+using symbolic::counted;
+using symbolic::listed;
+using symbolic::noun;
 
 /// What is said of each item, with the text between them: "x, y, z".
 template <class Items, class Text>
@@ -30,9 +30,6 @@ std::string joined(const Items& items, const Text& text, std::string_view betwee
   }
   return all;
 }
-/// "x, y and z".
-std::string listed(const std::vector<std::string>& names);
-
 /// The sentence with a capital letter.
 std::string capitalized(std::string sentence);
 

@@ -1,7 +1,6 @@
 #include "corank/solve/cutting/slicer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numeric>
 

@@ -1,9 +1,7 @@
 #include "corank/solve/exactness/exact_points.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "corank/certify/blow_up.h"
 #include "corank/certify/exact_verification.h"
 #include "corank/core/box.h"
 #include "corank/solve/exactness/corank_system.h"

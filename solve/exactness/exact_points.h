@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "corank/certify/kernel_bound.h"
 #include "corank/core/cover.h"
+#include "corank/core/ended.h"
 #include "corank/core/system.h"
 #include "corank/solve/step/control.h"
 

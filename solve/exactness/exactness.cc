@@ -11,7 +11,7 @@
 #include "corank/certify/blow_up.h"
 #include "corank/certify/distinct.h"
 #include "corank/certify/domain.h"
-#include "corank/certify/kernel_bound.h"
+#include "corank/certify/exact_verification.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/reduction.h"
 #include "corank/certify/refinement.h"

@@ -6,7 +6,6 @@
 #include <bit>
 #include <chrono>
 
-#include "corank/certify/blow_up.h"
 #include "corank/certify/kernel_bound.h"
 #include "corank/certify/passage.h"
 #include "corank/certify/type_bounds.h"

@@ -4,9 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "corank/core/check.h"
 #include "corank/solve/step/heuristics.h"
-#include "corank/solve/step/preconditioner.h"
 
 namespace corank::solve {
 BoxProcessor::BoxProcessor(const Problem& problem, Shard& shard)

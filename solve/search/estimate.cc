@@ -1,7 +1,6 @@
 #include "corank/solve/search/estimate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <functional>

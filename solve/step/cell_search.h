@@ -4,7 +4,6 @@
 // parameters, in which other solutions may be. Parts of a cell start with what is known of the whole.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 

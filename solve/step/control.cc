@@ -1,6 +1,5 @@
 #include "corank/solve/step/control.h"
 
-#include <array>
 #include <chrono>
 #include <limits>
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"

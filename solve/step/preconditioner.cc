@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "corank/core/lanes.h"
-#include "corank/solve/step/heuristics.h"
 #include "corank/solve/step/problem.h"
 #include "corank/solve/step/recorder.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "corank/solve/step/heuristics.h"
+#include "corank/core/rounding.h"
 #include "corank/solve/step/propagation.h"
 
 namespace corank::solve {

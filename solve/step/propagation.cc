@@ -5,7 +5,6 @@
 
 #include "corank/certify/projection.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/step/heuristics.h"
 
 namespace corank::solve {
 bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> x, Recorder* recorder) {

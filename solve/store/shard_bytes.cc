@@ -6,7 +6,6 @@
 #include <sstream>
 #include <utility>
 
-#include "corank/solve/store/packed_found.h"
 #include "corank/solve/store/search_archive.h"
 
 namespace corank {

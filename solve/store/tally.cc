@@ -1,6 +1,5 @@
 #include "corank/solve/store/tally.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "corank/core/nearest_rounding.h"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/symbolic/algebra/ginac_bridge.h"
+#include "corank/symbolic/model/evaluate.h"
 
 namespace corank::symbolic {
 namespace {
@@ -196,7 +197,7 @@ ConstantValue ConstantValue::function(const std::string& name, const ConstantVal
   }
   if (name == "abs")
     if (const std::optional<int> s = x.sign()) return *s < 0 ? -x : x;
-  return ConstantValue(apply_function(name, x.value_));
+  return ConstantValue(function_value(name, x.value_));
 }
 
 std::optional<int> ConstantValue::integer() const {

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <set>
 #include <stdexcept>
-#include <utility>
 
 namespace corank::symbolic {
 namespace {

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "corank/symbolic/model/evaluate.h"
+
 namespace corank::symbolic {
 namespace {
 
@@ -66,20 +68,6 @@ std::optional<ConstantFunction> constant_function(const ex& function) {
   return known == kFunctions.end() ? std::nullopt : std::optional(known->second);
 }
 
-ex apply_function(const std::string& name, const ex& x) {
-  if (name == "sin") return GiNaC::sin(x);
-  if (name == "cos") return GiNaC::cos(x);
-  if (name == "tan") return GiNaC::tan(x);
-  if (name == "asin") return GiNaC::asin(x);
-  if (name == "acos") return GiNaC::acos(x);
-  if (name == "atan") return GiNaC::atan(x);
-  if (name == "exp") return GiNaC::exp(x);
-  if (name == "log") return GiNaC::log(x);
-  if (name == "abs") return GiNaC::abs(x);
-  if (name == "sqrt") return GiNaC::sqrt(x);
-  throw std::domain_error("the function " + name + " is not known");
-}
-
 GinacBridge::GinacBridge(const Mechanism& mechanism)
     : GinacBridge(names_of(mechanism.constants()), names_of(mechanism.coordinates())) {}
 
@@ -127,7 +115,7 @@ ex GinacBridge::to_ginac(const Expression& e, const SourceLocation& otherwise) c
     }
     case Expression::Kind::quotient: return here([&] { return operand(0) / operand(1); });
     case Expression::Kind::power: return here([&] { return guarded_power(operand(0), operand(1)); });
-    case Expression::Kind::function: return here([&] { return apply_function(e.name(), operand(0)); });
+    case Expression::Kind::function: return here([&] { return function_value(e.name(), operand(0)); });
   }
   return 0;
 }

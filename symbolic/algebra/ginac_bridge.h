@@ -36,8 +36,6 @@ GiNaC::ex guarded_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
 GiNaC::numeric exact_decimal(const std::string& decimal);
 /// Which of the language's functions a GiNaC function is; nothing where it is none.
 std::optional<ConstantFunction> constant_function(const GiNaC::ex& function);
-/// One of the language's functions, symbolically. Throws std::domain_error for another name.
-GiNaC::ex apply_function(const std::string& name, const GiNaC::ex& argument);
 
 class GinacBridge {
  public:

@@ -1,32 +1,9 @@
 #include "corank/symbolic/model/evaluate.h"
 
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <numbers>
 
 namespace corank::symbolic {
-namespace {
-
-template <typename Real>
-Real value_of(const std::string& name, Real x) {
-  if (name == "sin") return std::sin(x);
-  if (name == "cos") return std::cos(x);
-  if (name == "tan") return std::tan(x);
-  if (name == "asin") return std::asin(x);
-  if (name == "acos") return std::acos(x);
-  if (name == "atan") return std::atan(x);
-  if (name == "sqrt") return std::sqrt(x);
-  if (name == "exp") return std::exp(x);
-  if (name == "log") return std::log(x);
-  if (name == "abs") return std::fabs(x);
-  return std::numeric_limits<Real>::quiet_NaN();
-}
-
-}  // namespace
-
-long double function_value(const std::string& name, long double x) { return value_of(name, x); }
-double function_value(const std::string& name, double x) { return value_of(name, x); }
 
 double evaluate(const Expression& e, const std::map<std::string, double>& values) {
   const auto operand = [&](std::size_t i) { return evaluate(e.operands()[i], values); };
@@ -53,6 +30,12 @@ double evaluate(const Expression& e, const std::map<std::string, double>& values
     case Expression::Kind::function: return function_value(e.name(), operand(0));
   }
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::map<std::string, double> constant_values(const Mechanism& mechanism) {
+  std::map<std::string, double> values;
+  for (const Constant& c : mechanism.constants()) values[c.name] = evaluate(c.value, values);
+  return values;
 }
 
 }  // namespace corank::symbolic

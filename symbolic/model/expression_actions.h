@@ -58,7 +58,6 @@ struct ExpressionAction : tao::pegtl::nothing<Rule> {};
 #define CORANK_EXPRESSION_ACTION(rule, ...) CORANK_ACTION_OF(ExpressionAction, ModelBuilder, rule, __VA_ARGS__)
 #define CORANK_EXPRESSION_ACTION0(rule, ...) CORANK_ACTION0_OF(ExpressionAction, ModelBuilder, rule, __VA_ARGS__)
 
-CORANK_EXPRESSION_ACTION(block_comment_open, { b.comment_where = place(in, b); })
 CORANK_EXPRESSION_ACTION(section_title, {
   b.section_title = in.string();
   b.section_where = place(in, b);

@@ -127,6 +127,23 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
   return nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?";
 }
 
-std::string counted(std::size_t n, const std::string& noun) { return std::to_string(n) + " " + noun + (n == 1 ? "" : "s"); }
+std::string listed(const std::vector<std::string>& words, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 == words.size() ? last : ", ") + words[i];
+  return text;
+}
+
+std::string noun(std::size_t n, const std::string& word) {
+  if (n == 1) return word;
+  return word.ends_with('y') ? word.substr(0, word.size() - 1) + "ies" : word + (word.ends_with('x') ? "es" : "s");
+}
+
+std::string counted(std::size_t n, const std::string& word) { return std::to_string(n) + " " + noun(n, word); }
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n\f\v";
+  const std::size_t first = std::min(text.find_first_not_of(kBlanks), text.size());
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
 
 }  // namespace corank::symbolic

@@ -27,8 +27,14 @@ std::string shortened(std::string_view text);
 std::string in_quotes(std::string_view text);
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
-/// "1 point", "2 points".
-std::string counted(std::size_t n, const std::string& noun);
+/// "x, y and z".
+std::string listed(const std::vector<std::string>& words, const std::string& last = " and ");
+/// "box" of 1, else "boxes": the plural of an English noun, by its last letter.
+std::string noun(std::size_t n, const std::string& word);
+/// "1 box", "2 inequalities".
+std::string counted(std::size_t n, const std::string& word);
+/// The text without the blanks around it.
+std::string_view trimmed(std::string_view text);
 
 /// The fewest letters to insert, delete or replace that turn a into b. Capital letters count as small ones.
 std::size_t edit_distance(std::string_view a, std::string_view b);

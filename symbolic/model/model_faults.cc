@@ -28,6 +28,8 @@ struct relation_sign : tao::pegtl::sor<tao::pegtl::string<':', '='>, tao::pegtl:
 
 }  // namespace
 
+std::string name_at(std::string_view text) { return std::string(text.substr(0, match_length<grammar::identifier>(text))); }
+
 std::string describe_start(std::string_view text) {
   if (text.empty()) return "the end of the text";
   if (text[0] == '\n' || text[0] == '\r' || text[0] == '%' || text.substr(0, 2) == "//") return "the end of the line";
@@ -73,7 +75,7 @@ void Fault::no_equation_end() const {
             std::to_string(builder.equation_where.line),
         "';' at the end of each equation");
   }
-  const bool next_thing = rest.empty() || rest[0] == '[' || match_length<grammar::identifier>(rest) > 0;
+  const bool next_thing = rest.empty() || rest[0] == '[' || !name_at(rest).empty();
   if (next_thing && builder.token_end.line < where.line)
     say_behind_last_operand("the equation has no ';' at its end", "an operator or ';'");
   if (rest.empty()) say("the equation has no ';' at its end", "an operator or ';'");
@@ -101,9 +103,7 @@ void Fault::no_range() const {
 }
 
 void Fault::unknown_section() const {
-  std::string title = builder.section_title;
-  const auto first = title.find_first_not_of(" \t"), last = title.find_last_not_of(" \t");
-  title = first == std::string::npos ? "" : title.substr(first, last - first + 1);
+  const std::string title(trimmed(builder.section_title));
   if (title.find(',') != std::string::npos)
     throw ModelError(builder.section_where, "section [" + shortened(title) + "] is unknown",
                      "a section; write the range of a variable in the variable's line");

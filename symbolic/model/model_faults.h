@@ -10,6 +10,8 @@
 
 namespace corank::symbolic {
 
+/// The name that a text begins with; empty where it begins with something else.
+std::string name_at(std::string_view text);
 /// The word, number, sign or character that a text begins with, for "found …".
 std::string describe_start(std::string_view text);
 

@@ -1,4 +1,5 @@
-// Parses a text by a grammar whose faults FaultOf words (model_faults.h) and whose actions fill a ModelBuilder.
+// Parses a text by a grammar whose faults raise_fault() words and whose actions fill a ModelBuilder, or what derives from
+// it.
 #pragma once
 
 #include <algorithm>
@@ -13,15 +14,28 @@
 
 namespace corank::symbolic {
 
-/// Turns a failed must<Rule> into the ModelError that FaultOf<Rule> words.
+/// A failed must<Rule>; other builders have their own.
+template <typename Rule>
+[[noreturn]] void raise_fault(const Fault& fault, const ModelBuilder&) {
+  FaultOf<Rule>::raise(fault);
+}
+
 template <typename Rule>
 struct FaultControl : tao::pegtl::normal<Rule> {
+  static constexpr bool kInComment = std::is_same_v<Rule, grammar::block_comment_rest>;
+
+  /// Comments may begin where the grammar looks ahead, without actions.
   template <typename AnyInput>
-  [[noreturn]] static void raise(const AnyInput& in, ModelBuilder& builder) {
-    const bool unfinished_comment = std::is_same_v<Rule, grammar::block_comment_rest>;
-    FaultOf<Rule>::raise({builder, unfinished_comment ? builder.comment_where : place(in, builder),
-                          std::string_view(in.current(), in.size())});
-    throw std::logic_error("a fault that says nothing");
+  static void start(const AnyInput& in, ModelBuilder& builder) {
+    if constexpr (kInComment) {
+      builder.comment_where = place(in, builder);
+      builder.comment_where.column -= 2;
+    }
+  }
+  template <typename AnyInput, typename Builder>
+  [[noreturn]] static void raise(const AnyInput& in, Builder& builder) {
+    raise_fault<Rule>({builder, kInComment ? builder.comment_where : place(in, builder), {in.current(), in.size()}},
+                      builder);
   }
 };
 

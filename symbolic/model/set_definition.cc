@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "corank/symbolic/model/expression_words.h"
+
 namespace corank::symbolic {
 namespace {
 
@@ -90,9 +92,7 @@ std::string names_of_sets(bool with_corank_only) {
   std::vector<std::string> names;
   for (const SetDefinition& d : set_definitions())
     if ((d.has_kernel() && !d.of_parts) || !with_corank_only) names.emplace_back(d.name);
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : &name == &names.back() ? " or " : ", ") + name;
-  return text;
+  return listed(names, " or ");
 }
 
 std::string set_with_corank(const std::string& set, int corank) {

@@ -6,7 +6,6 @@
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebra/ginac_bridge.h"
 #include "corank/symbolic/algebra/ginac_lock.h"
-#include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/symbolic/velocity/kernel_vector.h"

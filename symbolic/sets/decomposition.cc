@@ -9,7 +9,6 @@
 #include "corank/symbolic/algebra/ginac_bridge.h"
 #include "corank/symbolic/algebra/ginac_lock.h"
 #include "corank/symbolic/sets/algebrizer.h"
-#include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/symbolic/velocity/exact_matrix.h"
 #include "corank/symbolic/velocity/passive_rates.h"
 

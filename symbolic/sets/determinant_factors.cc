@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "corank/symbolic/velocity/exact_matrix.h"
-
 namespace corank::symbolic {
 namespace {
 

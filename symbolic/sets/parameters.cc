@@ -1,9 +1,7 @@
 #include "corank/symbolic/sets/parameters.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "corank/core/check.h"

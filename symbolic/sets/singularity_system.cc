@@ -1,6 +1,5 @@
 #include "corank/symbolic/sets/singularity_system.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <ranges>

@@ -1,6 +1,5 @@
 #include "corank/symbolic/velocity/passive_rates.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "corank/core/check.h"

@@ -1,9 +1,7 @@
 #include "corank/symbolic/writing/printer.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
-#include <string>
 #include <vector>
 
 #include "corank/symbolic/writing/line_breaks.h"
