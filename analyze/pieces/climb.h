@@ -2,7 +2,7 @@
 //
 // Where limits and loci meet at small angles, a cell may hold a sliver of a piece to which no cell next to it is proven to
 // be joined: all of its neighbours have several mixed functions. From a point of the sliver one gets away from all zeros
-// at once along the gradient of the sum of log |g_k| (the way to the analytic centre: Nesterov and Nemirovskii 1994).
+// at once along the gradient of the sum of log |g_k| (the way to the analytic centre, key Nesterov1994).
 #pragma once
 
 #include <functional>

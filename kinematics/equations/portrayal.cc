@@ -169,7 +169,8 @@ class Portrayal : Drafter {
       if (std::none_of(corners.begin(), corners.end(), [&](const Corner& other) { return other.name == c.name; }))
         corners.push_back(c);
     if (corners.size() < 2) return;
-    const std::string body_name = has_shapes(body) ? "" : name_of(body);  // what is drawn in their place is not the body
+    const std::string body_name =
+        bodies_.has_shapes(robot_, body) ? "" : name_of(body);  // what is drawn in their place is not the body
     if (corners.size() == 2) {
       draft_.part(Part::link, {corners[0].name, corners[1].name}, body_name);
     } else {
