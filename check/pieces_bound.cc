@@ -217,8 +217,8 @@ class Bound {
     if (fault.empty() && sheets_.holds(sheet, over, x)) cell.sides = std::move(x);
   }
 
-  // Do all points of S on the sheet over these sides lie in cells of other sheets? `via`: over how many sheets, each of which
-  // holds the points but leaves some of them to the next one.
+  // Do all points of S on the sheet over these sides lie in cells of other sheets? `via`: over how many sheets, each of
+  // which holds the points but leaves some of them to the next one.
   bool is_elsewhere(std::size_t sheet, const FreeSides& over, int halvings, int via) const {
     whole_.stop().poll();
     SignCell cell = parts_.cell(sheets_.free(sheet), sheets_.start(sheet, over));
@@ -239,8 +239,9 @@ class Bound {
       if (left.back().second.empty()) return true;
     }
     for (const auto& [other, parts] : left)
-      if (via > 1 && std::ranges::all_of(
-                         parts, [&](const FreeSides& part) { return is_elsewhere(other, part, kHalvingsVia, via - 1); }))
+      if (via > 1 && halvings % 4 == 0 && std::ranges::all_of(parts, [&](const FreeSides& part) {
+            return is_elsewhere(other, part, kHalvingsVia, via - 1);
+          }))
         return true;
     return halvings > 0 &&
            in_halves(sheet, over, [&](const FreeSides& half) { return is_elsewhere(sheet, half, halvings - 1, via); });

@@ -28,8 +28,9 @@ class Climber {
 
   /// The solution that joins a sheet to a part elsewhere, if any.
   using Arrived = std::function<std::optional<PieceLink>(const SheetBridge&)>;
-  /// From near a solution in the box at which the functions have these signs. `arrived` is asked of each sheet; the climb ends
-  /// where it has an answer. Nothing: it came to the centre, or no sheet was proven. Requires UpwardRounding::active().
+  /// From near a solution in the box at which the functions have these signs. `arrived` is asked of each sheet; the climb
+  /// ends where it has an answer. Nothing: it came to the centre, or no sheet was proven. Requires
+  /// UpwardRounding::active().
   std::optional<Climb> climb(const Box& from, std::vector<double> near, const std::vector<int>& signs,
                              const Arrived& arrived);
 

@@ -29,7 +29,8 @@ Request request(const std::string& text, std::vector<std::string> sets) {
   return {.number = 7, .model = {text, "robot.cuik"}, .constants = {}, .sets = std::move(sets), .command = {}};
 }
 
-std::vector<json> events(const Request& asked, const std::string& stop_after = "", const SessionLimits& limits = {}) {
+std::vector<json> events(const Request& asked, const std::string& stop_after = "",
+                         const SessionLimits& limits = {.coarse_seconds = 60}) {
   std::vector<json> all;
   std::atomic<bool> stop = false;
   const Emit emit = [&](const std::string& line) {
