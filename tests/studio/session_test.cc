@@ -29,8 +29,7 @@ Request request(const std::string& text, std::vector<std::string> sets) {
   return {.number = 7, .model = {text, "robot.cuik"}, .constants = {}, .sets = std::move(sets), .command = {}};
 }
 
-std::vector<json> events(const Request& asked, const std::string& stop_after = "",
-                         const SessionLimits& limits = {.coarse_seconds = 60}) {
+std::vector<json> events(const Request& asked, const std::string& stop_after = "", const SessionLimits& limits = {}) {
   std::vector<json> all;
   std::atomic<bool> stop = false;
   const Emit emit = [&](const std::string& line) {
@@ -177,7 +176,8 @@ TEST(Session, ShadesWhereRequirementsAreMet) {
   asked.require = {"J3y >="};
   EXPECT_EQ(events(asked).back().at("event"), "error");
   asked.require.clear();
-  EXPECT_TRUE(events(asked)[events(asked).size() - 2].at("colours").is_null());
+  const std::vector<json> without = events(asked);  // of how many pictures depends on the clock
+  EXPECT_TRUE(without[without.size() - 2].at("colours").is_null());
 }
 
 TEST(Session, ReadsEveryTemplate) {
