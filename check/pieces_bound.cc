@@ -239,12 +239,34 @@ class Bound {
       if (left.back().second.empty()) return true;
     }
     for (const auto& [other, parts] : left)
-      if (via > 1 && halvings % 4 == 0 && std::ranges::all_of(parts, [&](const FreeSides& part) {
-            return is_elsewhere(other, part, kHalvingsVia, via - 1);
-          }))
+      if (via > 1 && std::ranges::all_of(
+                         parts, [&](const FreeSides& part) { return is_elsewhere(other, part, kHalvingsVia, via - 1); }))
         return true;
-    return halvings > 0 &&
-           in_halves(sheet, over, [&](const FreeSides& half) { return is_elsewhere(sheet, half, halvings - 1, via); });
+    return halvings > 0 && in_parts(sheet, over, cell.sides,
+                                    [&](const FreeSides& part) { return is_elsewhere(sheet, part, halvings - 1, via); });
+  }
+
+  // Cut at an end of another sheet that the place goes across, where there is one: no halving comes to that. Else in halves.
+  template <class Visit>
+  bool in_parts(std::size_t sheet, const FreeSides& over, const Sides& at, const Visit& visit) const {
+    const std::vector<int>& own = sheets_.free(sheet);
+    for (std::size_t other = 0; other < sheets_.size(); ++other) {
+      const std::vector<int>& free = sheets_.free(other);
+      const FreeSides there = sheets_.over(other);
+      bool meets = other != sheet;
+      for (std::size_t f = 0; meets && f < free.size(); ++f) meets = at[free[f]].overlaps(there[f]);
+      for (std::size_t f = 0; meets && f < free.size(); ++f)
+        for (std::size_t k = 0; k < own.size(); ++k)
+          for (const double cut : {there[f].lo(), there[f].hi()}) {
+            if (own[k] != free[f] || !(over[k].lo() < cut && cut < over[k].hi())) continue;
+            FreeSides part = over;
+            part[k] = Interval(over[k].lo(), cut);
+            if (!visit(part)) return false;
+            part[k] = Interval(cut, over[k].hi());
+            return visit(part);
+          }
+    }
+    return in_halves(sheet, over, visit);
   }
 
   std::string check_cover() {
