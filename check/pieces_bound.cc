@@ -186,13 +186,19 @@ class Bound {
     for (std::size_t k = 0; k < over.size(); ++k)
       if (const double share = over[k].width() / all[k].width(); share > most) most = share, along = k;
     if (along == over.size()) return false;
-    const double from = over[along].lo(), cut = over[along].mid(), to = over[along].hi();
-    if (!(from < cut && cut < to)) return false;
-    FreeSides half = over;
-    half[along] = Interval(from, cut);
-    if (!visit(half)) return false;
-    half[along] = Interval(cut, to);
-    return visit(half);
+    const double cut = over[along].mid();
+    return is_within(over[along], cut) && in_two(over, along, cut, visit);
+  }
+
+  static bool is_within(const Interval& side, double cut) { return side.lo() < cut && cut < side.hi(); }
+
+  template <class Visit>
+  static bool in_two(const FreeSides& over, std::size_t along, double cut, const Visit& visit) {
+    FreeSides part = over;
+    part[along] = Interval(over[along].lo(), cut);
+    if (!visit(part)) return false;
+    part[along] = Interval(cut, over[along].hi());
+    return visit(part);
   }
 
   std::string examine_all() {
@@ -258,12 +264,7 @@ class Bound {
       for (std::size_t f = 0; meets && f < free.size(); ++f)
         for (std::size_t k = 0; k < own.size(); ++k)
           for (const double cut : {there[f].lo(), there[f].hi()}) {
-            if (own[k] != free[f] || !(over[k].lo() < cut && cut < over[k].hi())) continue;
-            FreeSides part = over;
-            part[k] = Interval(over[k].lo(), cut);
-            if (!visit(part)) return false;
-            part[k] = Interval(cut, over[k].hi());
-            return visit(part);
+            if (own[k] == free[f] && is_within(over[k], cut)) return in_two(over, k, cut, visit);
           }
     }
     return in_halves(sheet, over, visit);

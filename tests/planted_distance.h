@@ -158,23 +158,4 @@ inline std::vector<DistanceCase> distance_cases() {
           {{above, Points{{two, zero, zero}}}, "1.8", 0.1, Standing::satisfied}};
 }
 
-template <typename Decide>
-PlantedCount count_planted_distances(unsigned seeds, const Decide& standing) {
-  PlantedCount count;
-  for (unsigned seed = 0; seed < seeds; ++seed) {
-    PlantedDistance planted(seed);
-    const Standing claimed = standing(planted);
-    ++(claimed == Standing::satisfied ? count.satisfied : claimed == Standing::violated ? count.violated : count.open);
-    if (claimed == Standing::open) continue;
-    for (int sample = 0; sample < 20; ++sample) {
-      const double margin = planted.margin();
-      if (claimed == Standing::satisfied ? margin < -1e-9 : margin > 1e-9) {
-        ++count.contradicted;
-        break;
-      }
-    }
-  }
-  return count;
-}
-
 }  // namespace corank::test

@@ -112,15 +112,15 @@ struct PlantedCount {
   int satisfied = 0, violated = 0, open = 0, contradicted = 0;
 };
 
-template <typename Decide>
-PlantedCount count_planted(unsigned seeds, const Decide& standing) {
+template <typename Planted, typename Decide>
+PlantedCount count_planted(unsigned seeds, int samples, const Decide& standing) {
   PlantedCount count;
   for (unsigned seed = 0; seed < seeds; ++seed) {
-    PlantedRequirement planted(seed);
+    Planted planted(seed);
     const Standing claimed = standing(planted);
     ++(claimed == Standing::satisfied ? count.satisfied : claimed == Standing::violated ? count.violated : count.open);
     if (claimed == Standing::open) continue;
-    for (int sample = 0; sample < 50; ++sample) {
+    for (int sample = 0; sample < samples; ++sample) {
       const double margin = planted.margin();
       if (claimed == Standing::satisfied ? margin < -1e-9 : margin > 1e-9) {
         ++count.contradicted;

@@ -1,7 +1,6 @@
 #include "corank/analyze/aspects/aspects_factor.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -10,6 +9,7 @@
 #include "corank/analyze/clearance/ball.h"
 #include "corank/analyze/clearance/json.h"
 #include "corank/analyze/clearance/tolerance_factor.h"
+#include "corank/analyze/robots/robots_words.h"
 
 namespace corank::analyze {
 namespace {
@@ -85,13 +85,6 @@ class AspectsFactorSearch {
   std::pair<double, double> open_{0, 0};
   std::string obstacle_;
 };
-
-std::string in_words(const ExactNumbers& numbers) {
-  std::vector<std::string> parts;
-  for (const auto& [name, value] : numbers) parts.push_back(fmt::format("{} {}", name, value));
-  for (std::string& part : parts) std::ranges::replace(part, '_', ' ');
-  return fmt::format("{}", fmt::join(parts, ", "));
-}
 
 Json to_object(const ExactNumbers& numbers) {
   Json json = Json::object();

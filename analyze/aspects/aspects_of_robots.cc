@@ -85,7 +85,6 @@ Aspects aspects_of_robots(study::Question question, const AspectsOptions& option
   refuse(options.certificate, "a certificate of aspects");
   refuse(options.placed != nullptr, "the places of boxes in aspects");
   question.set = symbolic::SingularitySet::cspace;
-  Robots robots{.toleranced = question.model.toleranced(), .same = false, .obstacle = {}, .other = {}, .other_numbers = {}};
   std::vector<std::string> own_ends;
   question = with_common_ranges(std::move(question), own_ends);
   study::Question drawn = question;
@@ -97,8 +96,7 @@ Aspects aspects_of_robots(study::Question question, const AspectsOptions& option
   };
   const AspectsOptions counting{.threads = options.threads, .halvings = options.halvings, .rounds = options.rounds};
   const auto numbers = [&](const study::Question& one) { return exact_numbers_of(of_one(one, counting, control)); };
-  examine(question, exact_numbers_of(result), obstacle, numbers, robots, control);
-  result.robots = std::move(robots);
+  result.robots = examine(question, exact_numbers_of(result), obstacle, numbers, control);
   return result;
 }
 

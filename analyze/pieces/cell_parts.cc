@@ -218,8 +218,9 @@ bool CellParts::join_by_climbs(const std::map<std::size_t, std::vector<std::size
 // A solution in the part, if possible within the cell: over the middle of X_F, or towards its corners.
 std::optional<Box> CellParts::solution_of(const Part& part) {
   const SignCell& cell = cells_.cells()[part.cell];
-  for (const double inset : {0.5, 0.1, 0.02, 0.004, 0.0})
-    for (std::size_t corner = 0; corner < std::size_t{1} << cell.free.size(); ++corner) {
+  constexpr double kMiddle = 0.5;  // is the same towards each corner
+  for (const double inset : {kMiddle, 0.1, 0.02, 0.004, 0.0})
+    for (std::size_t corner = 0; corner < (inset == kMiddle ? 1 : std::size_t{1} << cell.free.size()); ++corner) {
       Box at = cell.sides;
       for (std::size_t f = 0; f < cell.free.size(); ++f) {
         const Interval& side = cell.sides[cell.free[f]];

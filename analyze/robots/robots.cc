@@ -77,15 +77,24 @@ void look_for_other_numbers(const study::Question& question, const ExactNumbers&
 
 }  // namespace
 
-void examine(const study::Question& question, const ExactNumbers& drawn,
-             const std::function<std::string(int parts)>& obstacle,
-             const std::function<ExactNumbers(const study::Question&)>& numbers, Robots& robots,
-             const solve::Control& control) {
+Robots examine(const study::Question& question, const ExactNumbers& drawn,
+               const std::function<std::string(int parts)>& obstacle,
+               const std::function<ExactNumbers(const study::Question&)>& numbers, const solve::Control& control) {
   constexpr int kParts = 32;
+  Robots robots;
+  robots.toleranced = question.model.toleranced();
   robots.obstacle = obstacle(1);
   if (!robots.obstacle.empty()) look_for_other_numbers(question, drawn, numbers, robots, control);
   if (!robots.obstacle.empty() && robots.other.empty() && !control.ended()) robots.obstacle = obstacle(kParts);
   robots.same = robots.obstacle.empty();
+  return robots;
+}
+
+std::string in_words(const ExactNumbers& numbers) {
+  std::vector<std::string> parts;
+  for (const auto& [name, value] : numbers) parts.push_back(fmt::format("{} {}", name, value));
+  for (std::string& part : parts) std::ranges::replace(part, '_', ' ');
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string robots_text(const Robots& r) {
@@ -95,12 +104,10 @@ std::string robots_text(const Robots& r) {
   text += line("", r.obstacle);
   if (r.other.empty()) return text;
   const auto part = [](const CoordinateValue& v) { return fmt::format("{} = {:.9g}", v.name, v.value.mid()); };
-  std::vector<std::string> constants, numbers;
+  std::vector<std::string> constants;
   for (const CoordinateValue& v : r.other) constants.push_back(part(v));
-  for (const auto& [name, value] : r.other_numbers) numbers.push_back(fmt::format("{} {}", name, value));
-  for (std::string& n : numbers) std::ranges::replace(n, '_', ' ');
   text += line("another robot", fmt::format("with {}, proven:", fmt::join(constants, ", ")));
-  return text + line("", fmt::format("{}", fmt::join(numbers, ", ")));
+  return text + line("", in_words(r.other_numbers));
 }
 
 Json robots_json(const Robots& r) {

@@ -29,12 +29,11 @@ struct Robots {
 /// fiftieth more, since it may be one of others. `own_ends`: the names of those ends as Limit::name, which are no limits.
 study::Question with_common_ranges(study::Question question, std::vector<std::string>& own_ends);
 
-/// Sets what is not known yet. `obstacle`: the condition that is not proven where tolerances are divided into that many
+/// `obstacle`: the condition that is not proven where tolerances are divided into that many
 /// parts at most, or nothing. `numbers`: of a question about one robot; those of robots at the corners of the tolerances, 16
 /// at most, are compared with those of the one that was drawn. `question`: with common ranges.
-void examine(const study::Question& question, const ExactNumbers& drawn,
-             const std::function<std::string(int parts)>& obstacle,
-             const std::function<ExactNumbers(const study::Question&)>& numbers, Robots& robots,
-             const solve::Control& control);
+Robots examine(const study::Question& question, const ExactNumbers& drawn,
+               const std::function<std::string(int parts)>& obstacle,
+               const std::function<ExactNumbers(const study::Question&)>& numbers, const solve::Control& control);
 
 }  // namespace corank::analyze

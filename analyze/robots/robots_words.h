@@ -8,6 +8,8 @@
 
 namespace corank::analyze {
 
+/// "aspects 4, working modes 2".
+std::string in_words(const ExactNumbers& numbers);
 /// Lines of a table.
 std::string robots_text(const Robots& robots);
 /// {"tolerances", "every", "reason", "other": {"constants", numbers}}.

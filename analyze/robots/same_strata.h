@@ -34,8 +34,8 @@ struct SameStrataOptions {
   std::uint64_t most = 1'000'000;  ///< boxes processed in one search
 };
 
-/// Empty: the hypothesis is proven. Else the condition that is not. `own_ends`: names of limits that are none of all robots,
-/// to which the set may not come.
+/// Empty: the hypothesis is proven. Else the condition that is not. `own_ends`: names of limits that are not the same for
+/// all robots; the set may not come to them.
 std::string obstacle_to_same_strata(const System& system, const std::vector<DividingFunction>& functions,
                                     const std::vector<std::string>& own_ends, const SameStrataOptions& options,
                                     solve::Control& control);

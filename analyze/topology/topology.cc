@@ -295,7 +295,6 @@ ExactNumbers exact_numbers(const Topology& t) {
 
 Topology of_robots(study::Question question, const TopologyOptions& options, solve::Control& control) {
   if (options.certificate) study::require_exact_constants(question.model, "a certificate of a shape");
-  Robots robots{.toleranced = question.model.toleranced(), .same = false, .obstacle = {}, .other = {}, .other_numbers = {}};
   std::vector<std::string> own_ends;
   question = with_common_ranges(std::move(question), own_ends);
   study::Question drawn = question;
@@ -306,8 +305,7 @@ Topology of_robots(study::Question question, const TopologyOptions& options, sol
     return obstacle_to_same_strata(system, {}, own_ends, {.threads = options.threads, .parts = parts}, control);
   };
   const auto numbers = [&](const study::Question& one) { return exact_numbers(of_one_robot(one, options, control)); };
-  examine(question, exact_numbers(result), obstacle, numbers, robots, control);
-  result.robots = std::move(robots);
+  result.robots = examine(question, exact_numbers(result), obstacle, numbers, control);
   return result;
 }
 

@@ -22,8 +22,8 @@ Standing standing_of_bodies(const Requirement& requirement, const std::vector<te
 }
 
 TEST(Distance, IsNeverClaimedAgainstASample) {
-  const test::PlantedCount count = test::count_planted_distances(
-      test::seeds(20) * 30, [](const auto& p) { return standing_of_bodies(p.requirement, p.entries, p.width); });
+  const test::PlantedCount count = test::count_planted<test::PlantedDistance>(
+      test::seeds(20) * 30, 20, [](const auto& p) { return standing_of_bodies(p.requirement, p.entries, p.width); });
   EXPECT_EQ(count.contradicted, 0);
   const int all = count.satisfied + count.violated + count.open;
   EXPECT_GT(count.satisfied, all / 4) << "of " << all;

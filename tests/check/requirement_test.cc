@@ -19,9 +19,9 @@ Standing standing_of(const Requirement& requirement, const std::vector<test::Pla
 }
 
 TEST(CheckedRequirement, IsNeverClaimedAgainstASample) {
-  const test::PlantedCount count = test::count_planted(test::seeds(20) * 20, [](const auto& planted) {
-    return standing_of(planted.requirement, planted.entries, planted.width);
-  });
+  const test::PlantedCount count = test::count_planted<test::PlantedRequirement>(
+      test::seeds(20) * 20, 50,
+      [](const auto& planted) { return standing_of(planted.requirement, planted.entries, planted.width); });
   EXPECT_EQ(count.contradicted, 0);
   const int all = count.satisfied + count.violated + count.open;
   EXPECT_GT(count.satisfied, all / 20) << "of " << all;
