@@ -88,14 +88,18 @@ report::ParameterPicture picture(const analyze::ParameterMap& map) {
     result.cells.push_back({c.sides[0], c.sides[1], number, c.kind == Kind::proven && number.has_value()});
   }
   for (const analyze::MapBoundaryBox& b : map.boundary) result.boundary.push_back({b.sides[0], b.sides[1], b.proven});
+  if (map.critical) {
+    for (const auto& c : map.critical->cusps) result.cusps.push_back({c.sides[0], c.sides[1], c.proven});
+    for (const auto& n : map.critical->nodes) result.nodes.push_back({n.sides[0], n.sides[1], n.proven});
+  }
   return result;
 }
 
 ExitStatus write_map(const CLI::App& sub, MapCommand command) {
   if (!command.orientation.turns.empty())
-    refuse_without_effect(sub, {"--set", "--kernel", "--corank", "--require"}, "no --orientation beside it");
+    refuse_without_effect(sub, {"--set", "--kernel", "--corank", "--require", "--cusps"}, "no --orientation beside it");
   if (command.count != "solutions")
-    refuse_without_effect(sub, {"--no-boundary", "--require", "--orientation"}, "--count solutions");
+    refuse_without_effect(sub, {"--no-boundary", "--require", "--orientation", "--cusps"}, "--count solutions");
   command.json.give_back(command.question.file);
   command.json.check();
   const int n = command.options.resolution;
@@ -167,6 +171,9 @@ void add_map(CLI::App& program, Action& action) {
                   "Number of the narrowest cells along each side: a power of two")
       ->capture_default_str();
   sub->add_flag("--no-boundary", command->no_boundary, "Do not look for the curve on which two solutions meet");
+  sub->add_flag("--cusps", command->options.cusps,
+                "Over both outputs or both inputs of a mechanism of two degrees of freedom, all lengths: find the cusps\n"
+                "and nodes of the curve on which two solutions meet, and the number of aspects");
   add_analysis_limits(*sub, command->options.threads, command->time_limit);
   sub->add_option(
          "-o", command->outputs,

@@ -28,10 +28,11 @@ class ParameterMap {
                                        orientation_of);
   }
 
-  py::tuple run(int threads, bool certificate, double time_limit, const py::object& progress) const {
+  py::tuple run(int threads, bool certificate, bool cusps, double time_limit, const py::object& progress) const {
     analyze::ParameterMapOptions options = options_;
     options.threads = threads;
     options.certificate = certificate;
+    options.cusps = cusps;
     return said(progress, [question = question_, options, time_limit](Watcher& watcher) {
       solve::Control control({.time = time_limit, .stop = &watcher.stop});
       analyze::ParameterMapOptions shown = options;

@@ -404,6 +404,11 @@ ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOption
   const auto start = std::chrono::steady_clock::now();
   const ParameterMapper mapper(question, options);
   const solve::InStage stage(control, solve::Stage::search);
+  std::optional<CriticalPoints> critical;
+  if (options.cusps) {
+    const ParameterMap plane = mapper.assemble({});
+    critical = critical_points(question.question, plane.names, plane.region, options.threads, control);
+  }
   std::vector<MapTile> tiles;
   std::mutex mutex;
   ThreadArena arena(options.threads);
@@ -420,6 +425,7 @@ ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOption
         tbb::simple_partitioner());
   });
   ParameterMap map = mapper.assemble(std::move(tiles));
+  map.critical = std::move(critical);
   map.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return map;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/analyze/maps/critical_points.h"
 #include "corank/core/map_claims.h"
 #include "corank/result/values/claim_files.h"
 #include "corank/solve/step/control.h"
@@ -35,6 +36,7 @@ struct MapQuestion {
 struct ParameterMapOptions {
   int resolution = 64;       ///< how many of the narrowest cells are along each side: a power of two, 8 … 1024
   bool boundary = true;      ///< look for the curve on which solutions meet, in cells that are left undecided
+  bool cusps = false;        ///< find the cusps and nodes of that curve, and the number of aspects (critical_points.h)
   bool certificate = false;  ///< of MapAnswer::solutions: keep what proves the cells' numbers
   int threads = 1;           ///< tiles at once; 0: one for each core
   std::function<void(std::size_t done, std::size_t all)> progress{};  ///< of tiles; from any thread, one at a time
@@ -87,6 +89,7 @@ struct ParameterMap {
   std::vector<MapCellAnswer> cells;      ///< sorted by their lower ends; they share sides, and cover the region
   std::vector<MapBoundaryBox> boundary;  ///< likewise sorted
   bool boundary_known = false;  ///< the boundary's boxes hold all points of undecided cells at which two solutions meet
+  std::optional<CriticalPoints> critical;  ///< where they are asked for
   bool complete = false;
   std::uint64_t processed = 0;
   double seconds = 0;
@@ -132,7 +135,7 @@ std::string to_table(const ParameterMap& map);
 std::string to_csv(const ParameterMap& map);
 /// {"model", "set", "count", "over": {name: [lo, hi]}, "fixed", "tolerances": {name: [lo, hi]}, "resolution", "cells":
 /// [[x_lo, x_hi, y_lo, y_hi, kind, count, at_centre, standing]], "boundary": [[x_lo, x_hi, y_lo, y_hi, proven]],
-/// "shares" …}; doc/maps.md.
+/// "cusps", "nodes": the same, or null, "cusps_known", "nodes_known", "aspects", "shares" …}; doc/maps.md.
 std::string to_json(const ParameterMap& map);
 /// For transport: a tile without its sheets as text, and back. Throws std::invalid_argument.
 std::string to_json(const MapTile& tile);

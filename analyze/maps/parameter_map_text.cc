@@ -30,7 +30,8 @@ Json row(const MapCellAnswer& c) {
   return json;
 }
 
-Json row(const MapBoundaryBox& b) {
+template <class Proven>
+Json row(const Proven& b) {
   Json json = row(b.sides);
   json.push_back(b.proven);
   return json;
@@ -55,6 +56,13 @@ std::optional<Standing> standing_of(const Json& cell) {
   const auto standing = standing_from_string(cell.at(7).get<std::string>());
   if (!standing) throw std::invalid_argument("no standing of a cell: " + cell.at(7).get<std::string>());
   return standing;
+}
+
+// "4 cusps, proven to be all on the plane".
+std::string points_line(const char* kind, const std::vector<CriticalPoint>& points, bool known) {
+  const auto proven = std::ranges::count_if(points, &CriticalPoint::proven);
+  return fmt::format("  {:<22}{}{}\n", kind, proven,
+                     known ? ", proven to be all on the plane" : " proven; there may be more");
 }
 
 std::string percent(double share) {
@@ -120,6 +128,12 @@ std::string to_table(const ParameterMap& map) {
     text += fmt::format("  {:<22}{} boxes, {} of them hold a proven piece of the curve{}\n", "where solutions meet",
                         map.boundary.size(), pieces, map.boundary_known ? "" : "; there may be more");
   }
+  if (const auto& points = map.critical) {
+    const std::string locus = points->forward ? "forward " : "inverse ";
+    text += points_line((locus + "cusps").c_str(), points->cusps, points->cusps_known);
+    text += points_line((locus + "nodes").c_str(), points->nodes, points->nodes_known);
+    if (!points->aspects.empty()) text += fmt::format("  {:<22}{}\n", "in all of C-space", points->aspects);
+  }
   return text;
 }
 
@@ -155,6 +169,11 @@ std::string to_json(const ParameterMap& map) {
   json["cells"] = rows(map.cells);
   json["boundary"] = rows(map.boundary);
   json["boundary_known"] = map.boundary_known;
+  json["cusps"] = map.critical ? rows(map.critical->cusps) : Json();
+  json["nodes"] = map.critical ? rows(map.critical->nodes) : Json();
+  json["cusps_known"] = map.critical && map.critical->cusps_known;
+  json["nodes_known"] = map.critical && map.critical->nodes_known;
+  json["aspects"] = map.critical && !map.critical->aspects.empty() ? Json(map.critical->aspects) : Json();
   json["processed"] = map.processed;
   json["seconds"] = map.seconds;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -36,6 +36,8 @@ class ParameterMap(Analysis, Certified):
         require: what every solution is to meet; empty if nothing is required.
         tolerances: (lower, upper) of each constant that has a tolerance: what is proven holds for every robot within them.
         standings: with requirements, the shares of the area where they are "satisfied", "violated" and "open".
+        aspects: with map(cusps=True), the number of aspects as text, if it was found.
+        cusps_known, nodes_known: are there no others than cusps() and nodes() in the plane?
         boundary_known: do the boxes of boundary() hold all values in undecided cells at which two solutions meet?
     """
 
@@ -56,6 +58,9 @@ class ParameterMap(Analysis, Certified):
         self.tolerances: Dict[str, Tuple[float, float]] = {n: (lo, hi) for n, (lo, hi) in self.data["tolerances"].items()}
         self.standings: Dict[str, float] = self.data.get("standings", {})
         self.boundary_known: bool = self.data["boundary_known"]
+        self.aspects: Optional[str] = self.data["aspects"]
+        self.cusps_known: bool = self.data["cusps_known"]
+        self.nodes_known: bool = self.data["nodes_known"]
 
     def to_pandas(self) -> "pandas.DataFrame":
         """Returns a data frame with a row for each cell: its lower and upper ends, its kind and the numbers `count` and
@@ -75,8 +80,19 @@ class ParameterMap(Analysis, Certified):
     def boundary(self) -> "numpy.ndarray":
         """Returns the boxes where two solutions may meet: an array of shape (n, 5), with the lower and upper ends in both
         parameters, and 1 if the box is proven to hold a piece of the curve on which they meet, else 0."""
+        return self._boxes("boundary")
+
+    def cusps(self) -> "numpy.ndarray":
+        """Returns the cusps of that curve, which map(cusps=True) finds, in the same way: 1 if the box is proven to hold one."""
+        return self._boxes("cusps")
+
+    def nodes(self) -> "numpy.ndarray":
+        """Returns the nodes of that curve, likewise."""
+        return self._boxes("nodes")
+
+    def _boxes(self, name: str) -> "numpy.ndarray":
         numpy = require("numpy")
-        return numpy.array(self.data["boundary"], dtype=float).reshape(-1, 5)
+        return numpy.array(self.data[name] or [], dtype=float).reshape(-1, 5)
 
     def grid(self) -> "numpy.ma.MaskedArray":
         """Returns the numbers as an array of shape (resolution, resolution), the second parameter along the first axis, both
@@ -149,6 +165,11 @@ class ParameterMap(Analysis, Certified):
         add(proven, "0.13")
         if proven:
             legend.append(Patch(facecolor="0.13", label="solutions meet"))
+        for kind, color in (("cusps", "tab:red"), ("nodes", "tab:green")):
+            points = [b for b in self.data[kind] or [] if b[4]]
+            if points:
+                x, y = [(b[0] + b[1]) / 2 for b in points], [(b[2] + b[3]) / 2 for b in points]
+                legend.append(axes.plot(x, y, "o", color=color, markersize=4, label=kind)[0])
         axes.set_xlim(*self.region[0])
         axes.set_ylim(*self.region[1])
         axes.set_xlabel(self.names[0])
@@ -169,6 +190,7 @@ def map(
     count: str = "solutions",
     resolution: int = 64,
     boundary: bool = True,
+    cusps: bool = False,
     certificate: bool = False,
     threads: int = 0,
     time_limit: float = 0,
@@ -191,6 +213,8 @@ def map(
             proven only at the centres of cells.
         resolution: the number of the narrowest cells along each side: a power of two from 8 to 1024.
         boundary: find the curve on which two solutions meet.
+        cusps: find the cusps and nodes of that curve, and the number of aspects; over both outputs or both inputs of a
+            mechanism of two degrees of freedom, all lengths.
         certificate: keep the proofs of the cells' numbers, for save() and verify(); only for "solutions" without `client`.
         threads: the number of threads; 0: one for each core. The map does not depend on it.
         time_limit: in seconds; 0: no limit.
@@ -202,6 +226,8 @@ def map(
     """
     if certificate and (count != "solutions" or client is not None):
         raise ValueError('certificate: expected count="solutions" and no client')
+    if cusps and (count != "solutions" or orientation is not None or client is not None):
+        raise ValueError('cusps: expected count="solutions", no orientation and no client')
     if orientation is not None and (count != "solutions" or set is not None or require is not None):
         raise ValueError('orientation: expected count="solutions", no set and nothing required')
     if require is not None:
@@ -213,7 +239,7 @@ def map(
     core = _corank.ParameterMap(ask(self._core, set), _ranges(over), values, *options)
     if client is None:
         with Shown(progress) as show:
-            data, text, file, raised = core.run(threads, certificate, time_limit, show)
+            data, text, file, raised = core.run(threads, certificate, cusps, time_limit, show)
         return deliver(ParameterMap(data, text, file), raised)
 
     from . import cluster  # needs a package that is not always there

@@ -15,7 +15,9 @@ namespace {
 constexpr int kGrid = 4096;
 constexpr double kTitle = 10, kLegendGap = 16, kRow = 15;
 constexpr double kSwatch = 9, kDot = 0.5;  // of a cell's side
-constexpr Color kUnknownColor{0.83, 0.83, 0.83}, kCurve{0.13, 0.13, 0.15}, kMayMeet{0.55, 0.55, 0.57};
+constexpr double kPoint = 3.2;             // radius of a cusp's or a node's dot
+constexpr Color kUnknownColor{0.83, 0.83, 0.83}, kCurve{0.13, 0.13, 0.15}, kMayMeet{0.55, 0.55, 0.57}, kCusp{0.85, 0.1, 0.1},
+    kNode{0.0, 0.6, 0.25};
 
 // Light enough for a dark curve beside them, told apart by the colour-blind and, in order, in grey: from pale yellow to
 // dark blue for growing numbers.
@@ -32,9 +34,12 @@ class Drawing {
     out_.cell = kPlaneWidth / kGrid;
     // Shapes that touch are not to show the paper between them.
     out_.outline = 0.1;
+    out_.mark = kPoint;
     choose_colors();
     add_regions();
     add_curve();
+    add_points("cusps", kCusp, in_.cusps);
+    add_points("nodes", kNode, in_.nodes);
     add_dots();
     add_frame();
     out_.width = add_legend() + 8;
@@ -103,6 +108,20 @@ class Drawing {
     add_shape("solutions meet", kCurve, proven);
   }
 
+  void add_points(const char* label, const Color& color, const std::vector<ParameterPicture::CurveBox>& points) {
+    for (const bool proven : {false, true}) {
+      CellUnion cells(kGrid, kGrid);
+      for (const auto& p : points)
+        if (p.proven == proven) add(cells, p.x, p.y, true);
+      Layout::Shape shape{
+          proven ? label : std::string("may be ") + label, "", proven ? color : kMayMeet, 1, cells.outlines(), {}};
+      shape.marked = shape.polygons;
+      if (shape.polygons.empty()) continue;
+      points_.emplace_back(shape.label, shape.color);
+      out_.shapes.push_back(std::move(shape));
+    }
+  }
+
   void add_dots() {
     for (const auto& c : in_.cells) {
       if (c.proven || !c.number) continue;
@@ -145,6 +164,7 @@ class Drawing {
     if (has_unknown_) add(kUnknownColor, in_.words.empty() ? "not known for the whole cell" : "open", 1);
     if (has_curve_) add(kCurve, "solutions meet", 1);
     if (has_others_) add(kMayMeet, "solutions may meet", 1);
+    for (const auto& [label, color] : points_) add(color, label, kDot);
     return right;
   }
 
@@ -153,6 +173,7 @@ class Drawing {
   std::map<int, Color> colors_;
   std::vector<int> proven_;
   std::map<int, bool> dots_;
+  std::vector<std::pair<std::string, Color>> points_;  // for the legend
   bool has_unknown_ = false, has_curve_ = false, has_others_ = false;
 };
 

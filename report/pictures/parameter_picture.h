@@ -27,6 +27,7 @@ struct ParameterPicture {
   Interval x_range, y_range;
   std::vector<Cell> cells;
   std::vector<CurveBox> boundary;
+  std::vector<CurveBox> cusps{}, nodes{};  ///< of that curve
 };
 
 /// In a format of is_portrait_format(). Throws ResultFileError where the file cannot be written.

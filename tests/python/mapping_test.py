@@ -54,6 +54,15 @@ def test_it_is_drawn_with_a_legend(cusp):
     assert words[:2] == ["3", "1"] and "solutions meet" in words and ax.get_xlabel() == "a"
 
 
+def test_cusps_and_nodes_of_an_arm_are_found(models):
+    arm = corank.load(models / "serial" / "orthogonal_3r_section.cuik", d3="0.91", d4="0.5", r2="1.15")
+    found = arm.map({"rho2": (0, 4), "z": (-2, 2)}, resolution=8, boundary=False, cusps=True)
+    assert found.cusps_known and found.nodes_known and found.aspects == "2 aspects, 1 assembly mode, 2 working modes"
+    assert found.cusps().shape == (4, 5) and found.nodes().shape == (2, 5) and (found.nodes()[:, 4] == 1).all()
+    with pytest.raises(ValueError):
+        arm.map({"rho2": (0, 4), "z": (-2, 2)}, count="aspects", cusps=True)
+
+
 def test_bodies_keep_apart_in_cells(dextar):
     apart = dextar.map(
         {"J3x": (0.25, 1), "J3y": (0.3, 1.75)}, require="distance(J5 J4, J2 J3) >= 5 mm", resolution=32, certificate=True
