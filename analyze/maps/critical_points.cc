@@ -11,7 +11,7 @@ namespace {
 
 using symbolic::SingularitySet;
 
-constexpr std::uint64_t kMostForPoints = 50'000, kMostForAspects = 100'000;
+constexpr std::uint64_t kMostForPoints = 20'000, kMostForAspects = 100'000;
 
 bool are_same(std::vector<std::string> a, std::vector<std::string> b) {
   std::ranges::sort(a);

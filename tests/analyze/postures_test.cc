@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Newton's method with numeric derivatives; nothing where it does not end in a posture.
+// Newton's method with numeric derivatives and steps of half a radian at most; nothing where it does not end in a posture.
 std::optional<Joints> newton(const Arm& arm, const Matrix4d& goal, Joints q) {
   const auto residual = [&](const Joints& at) {
     const Matrix4d t = hand(arm, at);
@@ -29,7 +29,7 @@ std::optional<Joints> newton(const Arm& arm, const Matrix4d& goal, Joints q) {
     r.tail<3>() = Vector3d(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1)) / 2;
     return r;
   };
-  for (int step = 0; step < 30; ++step) {
+  for (int step = 0; step < 60; ++step) {
     const Joints r = residual(q);
     if (r.cwiseAbs().maxCoeff() < 1e-13) break;
     Eigen::Matrix<double, 6, 6> j;
@@ -38,7 +38,8 @@ std::optional<Joints> newton(const Arm& arm, const Matrix4d& goal, Joints q) {
       next[k] += 1e-7;
       j.col(k) = (residual(next) - r) / 1e-7;
     }
-    q -= j.fullPivLu().solve(r);
+    const Joints whole = j.fullPivLu().solve(r);
+    q -= whole * std::min(1.0, 0.5 / std::max(whole.cwiseAbs().maxCoeff(), 1e-9));
     if (!(q.cwiseAbs().maxCoeff() < 1e3)) return std::nullopt;
   }
   return difference(hand(arm, q), goal) < 1e-11 ? std::optional(q) : std::nullopt;
