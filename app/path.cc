@@ -1,14 +1,11 @@
 // corank path: a way between two configurations without a singularity, as a tube that is proven.
 #include "corank/analyze/paths/path.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "corank/app/box_files.h"
-#include "corank/app/set_search.h"
+#include "corank/app/path_report.h"
 #include "corank/app/subcommands.h"
-#include "corank/report/html/path_page.h"
-#include "corank/report/pictures/set_look.h"
 #include "corank/result/values/claim_files.h"
 
 namespace corank::app {
@@ -28,9 +25,7 @@ struct PathCommand {
 };
 
 std::string PathCommand::line() const {
-  std::string text = "corank path " + std::filesystem::path(question.file).filename().string();
-  if (!question.loops.empty()) text += " --loops " + std::filesystem::path(question.loops).filename().string();
-  for (const std::string& definition : question.definitions) text += " -D '" + definition + "'";
+  std::string text = question.command_line("path");
   const auto add_end = [&](const std::string& name, const std::vector<std::string>& values, int mode) {
     text += fmt::format(" {} {}", name, fmt::join(values, ","));
     if (mode > 0) text += fmt::format(" {}-mode {}", name, mode);
@@ -42,46 +37,6 @@ std::string PathCommand::line() const {
   if (options.radius > 0) text += fmt::format(" --radius {:g}", options.radius);
   if (!output.empty()) text += " -o " + std::filesystem::path(output).filename().string();
   return text;
-}
-
-/// What the portraits of a page show, as far as it is found soon; what is not goes to `missing`. C-space is a background.
-std::vector<report::SetView> portrayed_sets(const PathCommand& command, const study::Question& question,
-                                            const solve::Control& control, std::vector<std::string>& missing) {
-  constexpr double kTimeOfEach = 4, kCoarserBackground = 3;
-  constexpr std::uint64_t kMostBoxes = 100'000;
-  std::vector<report::SetView> views;
-  for (const char* name : {"cspace", "forward", "inverse"}) {
-    const symbolic::SetDefinition& set = symbolic::definition(std::string(name));
-    if (control.ended()) {
-      missing.emplace_back(report::look(set).title);
-      continue;
-    }
-    const SetSearch search{.coarser = set.is_cspace() ? kCoarserBackground : 1,
-                           .sets = {name},
-                           .limits = {.threads = command.options.threads,
-                                      .max_found = kMostBoxes,
-                                      .time_limit = std::min(kTimeOfEach, control.seconds_left())}};
-    try {
-      std::optional<report::SetView> view = solve_view(search, question, 0, 0);
-      if (view && view->result.cover.complete())
-        views.push_back(std::move(*view));
-      else
-        missing.emplace_back(report::look(set).title);
-    } catch (const symbolic::ModelError&) {  // the model does not answer such a question
-      missing.emplace_back(report::look(set).title);
-    }
-  }
-  return views;
-}
-
-void write_page(const PathCommand& command, const analyze::PathFinder& finder, const analyze::Path& found,
-                const solve::Control& control) {
-  const study::Question& question = finder.question();
-  report::PathPageOptions options;
-  options.command = command.line();
-  if (found.tube) options.file = std::filesystem::path(command.output).filename().string();
-  const std::vector<report::SetView> sets = portrayed_sets(command, question, control, options.missing);
-  result::write_text(command.report, report::path_page(question.model, report::path_view(finder, found), sets, options));
 }
 
 ExitStatus path(PathCommand command) {
@@ -116,7 +71,9 @@ ExitStatus path(PathCommand command) {
   line.clear();
   if (!command.csv.empty()) result::write_text(command.csv, to_csv(finder, found));
   if (!command.output.empty() && found.tube) result::write_path(command.output, analyze::to_file(finder, found));
-  if (!command.report.empty()) write_page(command, finder, found, control);
+  if (!command.report.empty())
+    write_path_page(command.report, question, report::path_view(finder, found), command.line(),
+                    found.tube ? command.output : "", command.options.threads, control);
   if (command.json.say([&] { return to_json(finder, found); })) fmt::print("{}", result::printable(to_text(finder, found)));
   if (found.status == analyze::Path::Status::unknown) return kIncomplete;
   if (control.ended())

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "corank/app/exit_status.h"
 #include "corank/app/shared_options.h"
 #include "corank/result/values/words.h"
@@ -76,6 +78,13 @@ void QuestionOptions::add_corank(CLI::App& sub) {
 
 void QuestionOptions::add_definitions(CLI::App& sub) {
   add_option(sub, "-D NAME=EXPR", definitions, "Give a constant of the model another value; may be repeated");
+}
+
+std::string QuestionOptions::command_line(const std::string& subcommand) const {
+  std::string text = "corank " + subcommand + " " + std::filesystem::path(file).filename().string();
+  if (!loops.empty()) text += " --loops " + std::filesystem::path(loops).filename().string();
+  for (const std::string& definition : definitions) text += " -D '" + definition + "'";
+  return text;
 }
 
 study::Question load(const QuestionOptions& options, std::set<std::string>* said) {

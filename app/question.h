@@ -37,6 +37,8 @@ struct QuestionOptions {
   void add_require(CLI::App& sub, const std::string& what_for);
   /// -D alone.
   void add_definitions(CLI::App& sub);
+  /// What a user types for this model: "corank path dextar.cuik -D 'l2=1'".
+  std::string command_line(const std::string& subcommand) const;
 };
 
 /// Reads the model and puts the constants of the options in: the question, but for its set. Tells the notices about the

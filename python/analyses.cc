@@ -190,6 +190,16 @@ py::tuple postures(const Question& question, const Values& at, const std::option
               }));
 }
 
+// JSON, text, the path's file, where there is a path, and what a page shows of it.
+using FoundPath = std::tuple<std::string, std::string, std::shared_ptr<result::PathFile>, std::shared_ptr<PathPicture>>;
+
+FoundPath found_path(const analyze::PathFinder& finder, const analyze::Path& found, report::PathView view) {
+  std::shared_ptr<result::PathFile> file;
+  if (found.tube) file = std::make_shared<result::PathFile>(to_file(finder, found));
+  return {to_json(finder, found), to_text(finder, found), file,
+          std::make_shared<PathPicture>(finder.question().model, std::move(view))};
+}
+
 py::tuple cuspidal(const Question& question, const std::optional<std::string>& of, int poses, int threads, double time_limit,
                    const py::object& progress) {
   analyze::CuspidalOptions options{.poses = poses, .threads = threads, .progress = {}};
@@ -199,10 +209,10 @@ py::tuple cuspidal(const Question& question, const std::optional<std::string>& o
   }
   return said(progress, within(time_limit, [question, options](solve::Control& control) {
                 const analyze::Cuspidality found = analyze::cuspidality(question, options, control);
-                std::shared_ptr<result::PathFile> file;
-                if (found.path) file = std::make_shared<result::PathFile>(to_file(*found.finder, *found.path));
+                std::optional<FoundPath> path;
+                if (found.path) path = found_path(*found.finder, *found.path, report::cuspidal_view(found));
                 const std::string name = question.model.name();
-                return std::tuple(to_json(found, name, ""), to_text(found, name), file);
+                return std::tuple(to_json(found, name, ""), to_text(found, name), path);
               }));
 }
 
@@ -212,7 +222,6 @@ Ranges declared_ranges(const Question& question, const std::vector<std::string>&
   return list;
 }
 
-// With the path's file, where there is a path, and what a page shows of it.
 py::tuple path(const Question& question, const Values& from, int from_mode, const Values& to, int to_mode,
                const std::string& avoid, double radius, int threads, std::uint64_t max_boxes, double time_limit,
                const py::object& progress) {
@@ -227,10 +236,7 @@ py::tuple path(const Question& question, const Values& from, int from_mode, cons
     analyze::PathFinder finder(question, options);
     const Box first = finder.end(start, from_mode, "start", control), last = finder.end(end, to_mode, "end", control);
     const analyze::Path found = finder.find(first, last, control);
-    std::shared_ptr<result::PathFile> file;
-    if (found.tube) file = std::make_shared<result::PathFile>(to_file(finder, found));
-    return std::tuple(to_json(finder, found), to_text(finder, found), file,
-                      std::make_shared<PathPicture>(finder.question().model, report::path_view(finder, found)));
+    return found_path(finder, found, report::path_view(finder, found));
   };
   return said(progress, within(time_limit, work));
 }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Dict, List, Mapping, Optional, Sequence, Union
 
 from . import _corank
@@ -10,8 +9,8 @@ from .analyses import Analysis, _values
 from .errors import deliver
 from .expression import ExpressionLike, as_expression
 from .options import ask
+from .pathing import Path
 from .progress import ProgressOption, Shown
-from .result import Certified
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
@@ -36,7 +35,7 @@ class Postures(Analysis):
         self.families = [(f["dimension"], f["proven"], _values(f["values"])) for f in self.data["families"]]
 
 
-class Cuspidality(Analysis, Certified):
+class Cuspidality(Analysis):
     """Whether a robot changes its posture, at the same pose, without meeting a singularity. bool(c): is it proven to do so?
 
     Attributes:
@@ -46,14 +45,14 @@ class Cuspidality(Analysis, Certified):
         quaternion: the orientation (w, x, y, z); None if the pose has none in space.
         from_, to: the two postures, intervals by coordinate; None unless it is.
         same_sign: the number of pairs of postures that no sign of a determinant's factor tells apart.
+        path: the path between them, with its certificate (path.save, path.verify) and its page (path.animate); None unless
+            it is.
         reason: why it is not, or why it is open.
     """
 
-    _missing = "there is no certificate: the robot is not proven to be cuspidal"
-
-    def __init__(self, text: str, table: str, file: Optional["_corank.PathFile"] = None) -> None:
+    def __init__(self, text: str, table: str, path: Optional[Path] = None) -> None:
         super().__init__(text, table)
-        self._file = file
+        self.path = path
         self.cuspidal: Optional[bool] = self.data["cuspidal"]
         self.of: str = self.data["of"]
         self.given: Dict[str, float] = self.data["given"]
@@ -62,13 +61,6 @@ class Cuspidality(Analysis, Certified):
         self.to = None if self.data["to"] is None else _values(self.data["to"])
         self.same_sign: int = self.data["same_sign"]
         self.reason: Optional[str] = self.data["reason"]
-
-    def verify(self, *, progress: ProgressOption = None) -> bool:  # type: ignore[override]
-        """Checks the path between the postures with code that shares nothing with the code that found it. Raises ValueError
-        if there is none."""
-        with Shown(progress) as show:
-            text, _, raised = self._need().verify(1, show)
-        return deliver(bool(json.loads(text)["verified"]), raised)
 
     def __bool__(self) -> bool:
         return bool(self.cuspidal)
@@ -121,5 +113,5 @@ def cuspidal(
         poses: how many poses are tried.
     """
     with Shown(progress) as show:
-        text, table, file, raised = _corank.cuspidal(ask(self._core, None, "cspace"), of, poses, threads, time_limit, show)
-    return deliver(Cuspidality(text, table, file), raised)
+        text, table, path, raised = _corank.cuspidal(ask(self._core, None, "cspace"), of, poses, threads, time_limit, show)
+    return deliver(Cuspidality(text, table, path and Path(*path, self)), raised)

@@ -73,6 +73,7 @@ PathView path_view(const analyze::PathFinder& finder, const analyze::Path& path)
   PathView view{.avoid = finder.options().avoid,
                 .path = path,
                 .radius_asked = finder.options().radius,
+                .cuspidal = false,
                 .system = finder.system(),
                 .signs = {finder.signs(path.from), finder.signs(path.to)},
                 .names = {},
@@ -87,6 +88,12 @@ PathView path_view(const analyze::PathFinder& finder, const analyze::Path& path)
   }
   std::vector<std::string> names;
   if (path.tube) view.nodes = analyze::node_values(view.system, *path.tube, names);
+  return view;
+}
+
+PathView cuspidal_view(const analyze::Cuspidality& robot) {
+  PathView view = path_view(*robot.finder, *robot.path);
+  view.cuspidal = true;
   return view;
 }
 

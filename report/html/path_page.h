@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/analyze/paths/path.h"
+#include "corank/analyze/postures/cuspidal.h"
 #include "corank/core/system.h"
 #include "corank/core/tube.h"
 #include "corank/report/html/set_view.h"
@@ -19,7 +20,8 @@ struct PathView {
   analyze::Avoid avoid = analyze::Avoid::forward;
   analyze::Path path;
   double radius_asked = 0;
-  System system;  ///< C-space: the variables of boxes and tube
+  bool cuspidal = false;  ///< the ends are two postures at one pose, or two poses for one position of the motors
+  System system;          ///< C-space: the variables of boxes and tube
   /// At the path's two ends.
   std::array<std::vector<analyze::PathFinder::Sign>, 2> signs;
   /// Of the ends and of each node: the model's coordinates, in doubles, angles along a tube without jumps.
@@ -29,6 +31,8 @@ struct PathView {
 };
 
 PathView path_view(const analyze::PathFinder& finder, const analyze::Path& path);
+/// Of the path that proves it. `robot`: with a path.
+PathView cuspidal_view(const analyze::Cuspidality& robot);
 
 /// A JSON object for the page's script: "status", the singularities "avoided", the "ends" and, of a tube, "nodes", "pieces"
 /// and "radii", in the variables `order` (System::variables' names). Throws std::invalid_argument where the view has none of

@@ -60,6 +60,12 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
   const Tube& tube = *view.path.tube;
   const std::size_t n = tube.pieces.size();
   words.finding = "There is a path, proven from end to end.";
+  if (view.cuspidal) {
+    const char* const ends =
+        view.avoid == Avoid::forward ? "two poses for the same values of its motors" : "two postures at the same pose";
+    words.kicker = "Cuspidal: " + words.kicker;
+    words.finding = fmt::format("This robot is cuspidal: a path joins {}, proven from end to end.", ends);
+  }
   const std::string test = "a Newton test with one parameter proves one lift onto C-space";
   words.proven.push_back("The path is unbroken from the start to the end: " +
                          (n == 1 ? test : fmt::format("it has {} pieces that meet, and in each {}", grouped(n), test)) +
@@ -85,7 +91,7 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
 
 PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view) {
   PathWords words;
-  words.kicker = fmt::format("A path without {}", in_words(view.avoid));
+  words.kicker = fmt::format("{} path without {}", view.cuspidal ? "a" : "A", in_words(view.avoid));
   const std::string& reason = symbolic::html_text(view.path.reason);
   switch (view.path.status) {
     case Path::Status::path: say_of_a_path(mechanism, view, words); break;

@@ -91,6 +91,14 @@ TEST(PathWords, SayWhatIsProvenOfAPath) {
   EXPECT_THAT(words.unproven, Not(Contains(HasSubstr("requested"))));
 }
 
+TEST(PathWords, SayThatARobotIsCuspidal) {
+  Asked a = joined();
+  a.view.cuspidal = true;
+  const PathWords words = path_words(a.mechanism, a.view);
+  EXPECT_EQ(words.kicker, "Cuspidal: a path without forward singularities");
+  EXPECT_THAT(words.finding, HasSubstr("This robot is cuspidal: a path joins two poses for the same values of its motors"));
+}
+
 TEST(PathWords, SpeakOfBothKindsOfSingularityWhereBothAreAvoided) {
   const Asked a = asked("three_slider", {{"x_C", "0.3"}}, 4, {{"x_C", "0.5"}}, 4, {.avoid = analyze::Avoid::both});
   ASSERT_TRUE(a.view.path.tube);
