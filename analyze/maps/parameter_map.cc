@@ -35,8 +35,6 @@ constexpr std::uint64_t kMostOfCell = 1'000, kMostOfLast = 50'000, kMostOfCentre
 constexpr std::size_t kMostRoots = 4;  // of a cell's boxes that are searched for folds each; more are one
 constexpr double kFoldWidth = 1;       // of a box of the curve, in edges of the narrowest cells
 
-const char* const kAnswers[] = {"solutions", "components", "aspects", "assembly-modes", "working-modes"};
-
 // The limits of one of several threads: its run ends when that of all does. Boxes are not limited.
 solve::Control::Limits as_of(const solve::Control& all) {
   const solve::Control::Limits rest = all.rest(0, 0);
@@ -51,14 +49,6 @@ Interval part_of(const Interval& side, int k, int n) {
 }
 
 }  // namespace
-
-const char* to_string(MapAnswer answer) { return kAnswers[static_cast<std::size_t>(answer)]; }
-
-std::optional<MapAnswer> map_answer_from_string(const std::string& text) {
-  for (std::size_t k = 0; k < std::size(kAnswers); ++k)
-    if (text == kAnswers[k]) return static_cast<MapAnswer>(k);
-  return std::nullopt;
-}
 
 struct ParameterMapper::Parts {
   /// Of MapAnswer::solutions.
@@ -372,32 +362,6 @@ ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {
             {c.sides, c.count.value(), std::exchange(c.sheets, {}), c.standing.value_or(Standing::open)});
   }
   return map;
-}
-
-double ParameterMap::share_of(const MapCellAnswer& cell) const {
-  return cell.sides[0].width() * cell.sides[1].width() / (region[0].width() * region[1].width());
-}
-
-std::map<int, double> ParameterMap::shares() const {
-  std::map<int, double> shares;
-  for (const MapCellAnswer& c : cells)
-    if (const auto& count = c.kind == MapCellAnswer::Kind::centre ? c.at_centre : c.count) shares[*count] += share_of(c);
-  return shares;
-}
-
-double ParameterMap::proven_share() const {
-  double share = 0;
-  for (const MapCellAnswer& c : cells)
-    if (c.kind == MapCellAnswer::Kind::proven) share += share_of(c);
-  return share;
-}
-
-double ParameterMap::share_where(Standing standing) const {
-  double known = 0;
-  for (const MapCellAnswer& c : cells)
-    if (standing == Standing::open ? c.count == 0 || (c.standing && c.standing != Standing::open) : c.standing == standing)
-      known += share_of(c);
-  return standing == Standing::open ? std::max(0.0, 1 - known) : known;
 }
 
 ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOptions& options, solve::Control& control) {

@@ -1,7 +1,6 @@
 #include "corank/symbolic/sets/algebrizer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "corank/symbolic/algebra/ginac_lock.h"
 #include "corank/symbolic/algebra/polynomial_expander.h"
 #include "corank/symbolic/model/expression_words.h"
+#include "corank/symbolic/sets/angle_range.h"
 
 namespace corank::symbolic {
 namespace {
@@ -20,70 +20,6 @@ namespace {
 bool mentions(const Relation& relation, const std::vector<std::string>& names) {
   return std::any_of(names.begin(), names.end(),
                      [&](const std::string& name) { return relation.lhs.mentions(name) || relation.rhs.mentions(name); });
-}
-
-// An angle's range [α, β] as conditions on c = cos θ and s = sin θ; see algebrizer.h for the theorem.
-struct ConstantRange {
-  ConstantValue lower, upper;
-};
-
-struct AngleRange {
-  // [lower, upper] ⊇ {cos θ}, {sin θ}: exact ends, the hull wherever signs of the constants involved can be decided.
-  ConstantRange cosine, sine;
-  // cos(m)·c + sin(m)·s ≥ cos(h), where the range is smaller than the circle and more than one value.
-  struct Chord {
-    ConstantValue cos_m, sin_m, cos_h;
-  };
-  std::optional<Chord> chord;
-  // cos α and sin α where α = β; then there is no chord, and `cosine` and `sine` are [-1, 1].
-  struct Value {
-    ConstantValue cosine, sine;
-  };
-  std::optional<Value> value;
-};
-
-// Does [α, β] contain offset + 2πk for some integer k? True where that cannot be decided: the hull may be too wide, never
-// too narrow.
-bool may_contain(const ConstantRange& range, const ConstantValue& offset) {
-  const double lower = range.lower.exact().enclose().lo(), first = offset.exact().enclose().lo();
-  const double turns = std::floor((lower - first) / (2 * std::acos(-1.0)));
-  if (!(std::abs(turns) < 1e6)) throw std::domain_error("an angle of more than a million turns");
-  // The first candidate ≥ α is among these, whatever the double arithmetic above lost.
-  for (int k = -1; k <= 2; ++k) {
-    const ConstantValue candidate =
-        offset + ConstantValue(2) * ConstantValue(static_cast<int>(turns) + k) * ConstantValue::pi();
-    if ((candidate - range.lower).sign().value_or(0) >= 0 && (range.upper - candidate).sign().value_or(0) >= 0) return true;
-  }
-  return false;
-}
-
-// Hull of f over the range, for f = cos (or sin) with a maximum at `top` and a minimum at `bottom`, both mod 2π.
-ConstantRange hull(const ConstantRange& range, const std::string& f, const ConstantValue& top, const ConstantValue& bottom) {
-  const ConstantValue at_lower = ConstantValue::function(f, range.lower), at_upper = ConstantValue::function(f, range.upper);
-  const std::optional<int> order = (at_upper - at_lower).sign();
-  ConstantRange result{-1, 1};
-  if (order && !may_contain(range, bottom)) result.lower = *order >= 0 ? at_lower : at_upper;
-  if (order && !may_contain(range, top)) result.upper = *order >= 0 ? at_upper : at_lower;
-  return result;
-}
-
-// Requires α ≤ β. Throws std::domain_error where the bounds are absurdly large.
-AngleRange angle_range(const ConstantRange& range) {
-  const ConstantValue width = range.upper - range.lower, pi = ConstantValue::pi();
-  const std::optional<int> below_circle = (ConstantValue(2) * pi - width).sign();
-  // Undecided: the range is the whole circle but for 10^-1000 of it. No condition is the safe reading.
-  AngleRange result{{-1, 1}, {-1, 1}, std::nullopt, std::nullopt};
-  if (below_circle.value_or(0) <= 0) return result;
-  if (width.sign() == 0) {
-    result.value = {ConstantValue::function("cos", range.lower), ConstantValue::function("sin", range.lower)};
-    return result;
-  }
-  const ConstantValue half_pi = pi / 2;
-  result.cosine = hull(range, "cos", 0, pi);
-  result.sine = hull(range, "sin", half_pi, -half_pi);
-  const ConstantValue m = (range.lower + range.upper) / 2, h = width / 2;
-  result.chord = {ConstantValue::function("cos", m), ConstantValue::function("sin", m), ConstantValue::function("cos", h)};
-  return result;
 }
 
 class Algebrizer {

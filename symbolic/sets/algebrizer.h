@@ -3,8 +3,7 @@
 // (System::angles). A length keeps its variable; its sines and cosines become terms of the equations or variables
 // of their own, see length_functions.h. The result's coefficients are exact.
 //
-// Range: θ ∈ [α, β] with β − α < 2π, m = (α + β)/2, h = (β − α)/2:  θ ∈ [α, β] (mod 2π)  ⇔  cos(θ − m) ≥ cos h
-//        ⇔  cos(m) c_θ + sin(m) s_θ ≥ cos(h),   for any h ∈ (0, π).
+// A range: angle_range.h.
 // A range of one value, α = β: in the equations the angle is the constant α. Its variables have the equations c_θ = cos α
 // and s_θ = sin α in place of the circle, so that boxes hold them. Jacobians were made before and have the angle's column.
 // Likewise of a dependent angle (DependentAngle): in the equations it is sign·b + quarters·π/2, and c_θ and s_θ are that
