@@ -16,6 +16,7 @@ struct Heuristics {
   double proof_spread = 1.5;  ///< try a proof below this spread |I − Y·S|
   double sheet_spread = 1.5;  ///< below it what is in the box may soon be a sheet: divide along its free variables alone
   double free_share = 0.1;    ///< cut a free side unless it is already so much narrower than the others
+  double worthwhile = 0.1;    ///< a projection that gains a smaller share is not followed up
   double wide = 0.2;          ///< of the typical sizes: what a Newton step says of narrower boxes misleads a bisection
 };
 
@@ -25,7 +26,7 @@ inline Heuristics heuristics_for(const System& system, bool tolerant) {
   const std::size_t dimension = system.variables.size() - std::min(system.variables.size(), system.equations.size());
   const bool singular =
       std::ranges::any_of(system.variables, [](const Variable& v) { return v.kind == VariableKind::kernel; });
-  if (dimension == 0) return tolerant || singular ? Heuristics{} : Heuristics{.gain = 0.07, .repeats = 8};
+  if (dimension == 0) return tolerant || singular ? Heuristics{} : Heuristics{.gain = 0.07, .repeats = 8, .worthwhile = 0.4};
   if (dimension == 1) return singular ? Heuristics{.gain = 0.1} : Heuristics{};
   if (!singular) return {.proof_spread = 2, .free_share = 0.4};
   return {.gain = 0.02, .repeats = 20, .proof_spread = 2, .sheet_spread = 3, .free_share = 0.5, .wide = 0.03};
@@ -36,9 +37,8 @@ inline constexpr Heuristics kForCells{.proof_spread = 2};
 // Shares and sizes without another word are of typical sizes (TypicalSizes).
 
 // Projections and Newton steps (propagation.h)
-inline constexpr double kWorthwhileShare = 0.1;  ///< a projection that gains less is not followed up *
-inline constexpr std::size_t kTurns = 8;         ///< of all rows, at most
-inline constexpr int kDomainRuns = 8;            ///< of projections over the search domain
+inline constexpr std::size_t kTurns = 8;  ///< of all rows, at most
+inline constexpr int kDomainRuns = 8;     ///< of projections over the search domain
 /// Of a side: what rounding alone makes as wide is divided in vain. Sides below kNarrow of the widest one do not count.
 inline constexpr double kNoise = 0.5, kRegularNoise = 8, kNarrow = 1e-3;
 /// Pivots below this share of a row's largest entry, each times its variable's scale, count as zero: as a rule; near a

@@ -10,7 +10,7 @@ namespace corank::solve {
 bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> x, Recorder* recorder) {
   changed_.resize(system.variables());
   // Rows wait in order; a row comes back when one of its variables has shrunk noticeably. Bounded by a share of the rows,
-  // since each return costs a variable a tenth of its width.
+  // since each return costs a variable a share of its width.
   queue_.clear();
   for (int row = 0; row < system.contracting_rows(); ++row) queue_.push_back(row);
   pending_.assign(system.contracting_rows(), 1);
@@ -20,7 +20,7 @@ bool Propagator::run(const certify::CompiledSystem& system, std::span<Interval> 
     pending_[row] = 0;
     std::ranges::fill(changed_, 0);
     if (recorder) before_.assign(x.begin(), x.begin() + system.variables());
-    const bool empty = !certify::project(system, row, x, kWorthwhileShare, changed_.data());
+    const bool empty = !certify::project(system, row, x, worthwhile_, changed_.data());
     if (recorder && (empty || !std::equal(before_.begin(), before_.end(), x.begin())))
       recorder->row(row < system.rows() ? row : system.rows() - row - 1);
     if (empty) return false;
@@ -49,7 +49,7 @@ TypicalSizes typical_sizes(const certify::CompiledSystem& system, std::vector<In
     }
     bool gained = false;
     for (std::size_t j = 0; j < domain.size(); ++j)
-      gained = gained || domain[j].width() < (1 - kWorthwhileShare) * before[j].width();
+      gained = gained || domain[j].width() < (1 - Heuristics{}.worthwhile) * before[j].width();
     if (!gained) break;
   }
   TypicalSizes sizes;

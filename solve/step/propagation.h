@@ -19,11 +19,14 @@ namespace corank::solve {
 /// thread.
 class Propagator {
  public:
-  /// Projects every row, and each row again when one of its variables has lost more than a tenth of its width. False: x
+  /// `worthwhile`: Heuristics::worthwhile.
+  explicit Propagator(double worthwhile = Heuristics{}.worthwhile) : worthwhile_(worthwhile) {}
+  /// Projects every row, and each row again when one of its variables has lost more than that share of its width. False: x
   /// holds no solution. Where given, the recorder keeps what was gained.
   bool run(const certify::CompiledSystem& system, std::span<Interval> x, Recorder* recorder = nullptr);
 
  private:
+  double worthwhile_;
   std::vector<Interval> before_;  // for the recorder
   std::vector<std::uint8_t> changed_, pending_;
   std::vector<int> queue_;
@@ -69,7 +72,7 @@ class Contractor {
   certify::NewtonWorkspace& workspace_;
   Recorder* const recorder_;
   std::optional<certify::NewtonStep> step_;
-  Propagator propagator_;
+  Propagator propagator_{heuristics_.worthwhile};
   std::vector<double> widths_;
   bool regular_ = false, noisy_ = false, worth_proving_ = false, near_sheet_ = false;
 };
