@@ -63,7 +63,6 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
   if (view.cuspidal) {
     const char* const ends =
         view.avoid == Avoid::forward ? "two poses for the same values of its motors" : "two postures at the same pose";
-    words.kicker = "Cuspidal: " + words.kicker;
     words.finding = fmt::format("This robot is cuspidal: a path joins {}, proven from end to end.", ends);
   }
   const std::string test = "a Newton test with one parameter proves one lift onto C-space";
@@ -91,7 +90,7 @@ void say_of_a_path(const symbolic::Mechanism& mechanism, const PathView& view, P
 
 PathWords path_words(const symbolic::Mechanism& mechanism, const PathView& view) {
   PathWords words;
-  words.kicker = fmt::format("{} path without {}", view.cuspidal ? "a" : "A", in_words(view.avoid));
+  words.kicker = fmt::format("{} without {}", view.cuspidal ? "Cuspidal: a path" : "A path", in_words(view.avoid));
   const std::string& reason = symbolic::html_text(view.path.reason);
   switch (view.path.status) {
     case Path::Status::path: say_of_a_path(mechanism, view, words); break;
