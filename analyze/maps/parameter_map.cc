@@ -19,7 +19,7 @@
 #include "corank/core/threads.h"
 #include "corank/solve/reduction/reducer.h"
 #include "corank/solve/search/solve.h"
-#include "corank/solve/step/cell_search.h"
+#include "corank/solve/step/product_search.h"
 #include "corank/symbolic/algebra/exact_value.h"
 
 namespace corank::analyze {
@@ -57,6 +57,7 @@ struct ParameterMapper::Parts {
     std::vector<std::pair<std::string, Interval>> tolerances;  // of the latter
     certify::Reduction reduction;
     std::unique_ptr<const solve::Problem> problem;
+    std::unique_ptr<const solve::ProductProblem> product;
     int copies = 1;
     std::vector<Requirement> requirements;
     std::vector<int> kept_as, value_row;  // of each variable of the whole system one of the two, the other −1
@@ -81,12 +82,12 @@ struct ParameterMapper::Parts {
   void make_folds();
   MapTile count(int number, solve::Control& control) const;
   MapTile sample(int number, solve::Control& control) const;
-  void divide(solve::CellSearch& search, solve::ParameterCell cell, int level, MapTile& tile, std::vector<Box>& roots,
+  void divide(solve::ProductSearch& search, solve::ProductCell cell, int level, MapTile& tile, std::vector<Box>& roots,
               solve::Control& control) const;
   void find_folds(std::vector<Box> roots, MapTile& tile, solve::Control& control) const;
   std::optional<int> answer_at(const Box& sides, solve::Control& control) const;
-  std::vector<MapSheet> sheets_of(const solve::ParameterCell& cell, const std::vector<std::size_t>& solutions) const;
-  std::optional<Standing> standing_of(const solve::ParameterCell& cell, const std::vector<std::size_t>& solutions) const;
+  std::vector<MapSheet> sheets_of(const std::vector<certify::Sheet>& solutions) const;
+  std::optional<Standing> standing_of(const std::vector<certify::Sheet>& solutions) const;
 };
 
 void ParameterMapper::Parts::make_family() {
@@ -114,6 +115,7 @@ void ParameterMapper::Parts::make_family() {
                          " unknowns: there is no number of solutions to count",
                      "a set of isolated solutions, such as the configurations where all inputs are parameters or fixed");
   f.problem = std::make_unique<solve::Problem>(system, f.reduction, [] { return false; });
+  f.product = std::make_unique<solve::ProductProblem>(f.reduction, f.parameters, system.kernel_vectors);
   f.kept_as.assign(system.size(), -1);
   f.value_row = f.kept_as;
   for (std::size_t k = 0; k < f.reduction.kept.size(); ++k) f.kept_as[f.reduction.kept[k]] = static_cast<int>(k);
@@ -177,7 +179,7 @@ MapTile ParameterMapper::Parts::count(int number, solve::Control& control) const
   std::vector<Box> roots;
   {
     const UpwardRounding rounding;
-    solve::CellSearch search(*family->problem, family->parameters);
+    solve::ProductSearch search(*family->product, *family->problem);
     divide(search, search.whole(of_every_robot(sides), family->reduction.system.domain()), 0, tile, roots, control);
     tile.processed = search.processed();
   }
@@ -186,7 +188,7 @@ MapTile ParameterMapper::Parts::count(int number, solve::Control& control) const
   return tile;
 }
 
-void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterCell cell, int level, MapTile& tile,
+void ParameterMapper::Parts::divide(solve::ProductSearch& search, solve::ProductCell cell, int level, MapTile& tile,
                                     std::vector<Box>& roots, solve::Control& control) const {
   const Box sides{cell.sides[0], cell.sides[1]};
   const bool last = level == depth();
@@ -198,12 +200,12 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
     finished = search.refine(cell, kFinestOpenShare, kMostOfLast, control);
     solutions = search.solutions(cell);
   }
-  const std::optional<Standing> standing = solutions ? standing_of(cell, *solutions) : std::nullopt;
+  const std::optional<Standing> standing = solutions ? standing_of(*solutions) : std::nullopt;
   if (solutions && (last || standing != Standing::open)) {
     const auto count = static_cast<int>(solutions->size());
     CORANK_CHECK(count % family->copies == 0);
     tile.cells.push_back({sides, MapCellAnswer::Kind::proven, count / family->copies, {}, standing});
-    if (options.certificate) tile.cells.back().sheets = sheets_of(cell, *solutions);
+    if (options.certificate) tile.cells.back().sheets = sheets_of(*solutions);
     return;
   }
   if (!finished) {
@@ -218,20 +220,20 @@ void ParameterMapper::Parts::divide(solve::CellSearch& search, solve::ParameterC
     return;
   }
   MapCellAnswer answer{sides, MapCellAnswer::Kind::undecided};
-  solve::ParameterCell centre = search.part(cell, of_every_robot({Interval(sides[0].mid()), Interval(sides[1].mid())}));
+  solve::ProductCell centre = search.part(cell, of_every_robot({Interval(sides[0].mid()), Interval(sides[1].mid())}));
   search.refine(centre, kCentreShare, kMostOfCentre, control);
   if (const auto there = search.solutions(centre)) answer.at_centre = static_cast<int>(there->size()) / family->copies;
   tile.cells.push_back(std::move(answer));
-  if (cell.open.size() > kMostRoots) {
-    for (std::size_t k = 1; k < cell.open.size(); ++k) include(cell.open[0], cell.open[k]);
-    cell.open.resize(1);
+  std::vector<Box> open = search.open(cell);
+  if (open.size() > kMostRoots) {
+    for (std::size_t k = 1; k < open.size(); ++k) include(open[0], open[k]);
+    open.resize(1);
   }
-  std::move(cell.open.begin(), cell.open.end(), std::back_inserter(roots));
+  std::ranges::move(open, std::back_inserter(roots));
 }
 
 // The eliminated variables' values follow from the others'.
-std::vector<MapSheet> ParameterMapper::Parts::sheets_of(const solve::ParameterCell& cell,
-                                                        const std::vector<std::size_t>& solutions) const {
+std::vector<MapSheet> ParameterMapper::Parts::sheets_of(const std::vector<certify::Sheet>& solutions) const {
   const certify::Reduction& r = family->reduction;
   const auto lifted = [&](const std::vector<Interval>& sides) {
     Box box(r.kept.size() + r.definitions.size(), Interval::whole());
@@ -239,21 +241,20 @@ std::vector<MapSheet> ParameterMapper::Parts::sheets_of(const solve::ParameterCe
     return box;
   };
   std::vector<MapSheet> sheets;
-  for (const std::size_t k : solutions) sheets.push_back({lifted(cell.sheets[k].image), lifted(cell.sheets[k].region)});
+  for (const certify::Sheet& s : solutions) sheets.push_back({lifted(s.image), lifted(s.region)});
   return sheets;
 }
 
-std::optional<Standing> ParameterMapper::Parts::standing_of(const solve::ParameterCell& cell,
-                                                            const std::vector<std::size_t>& solutions) const {
+std::optional<Standing> ParameterMapper::Parts::standing_of(const std::vector<certify::Sheet>& solutions) const {
   const Family& f = *family;
   if (f.requirements.empty() || solutions.empty()) return std::nullopt;
   const certify::CompiledSystem& system = f.problem->compiled;
   certify::NewtonWorkspace workspace;
   Standing all = Standing::satisfied;
-  for (const std::size_t k : solutions) {
-    Box x = cell.sheets[k].image;
+  for (const certify::Sheet& sheet : solutions) {
+    Box x = sheet.image;
     const auto tightened = [&] {
-      const auto p = certify::midpoint_preconditioner(system, midpoint(x), cell.sheets[k].dependent);
+      const auto p = certify::midpoint_preconditioner(system, midpoint(x), sheet.dependent);
       return certify::tighten_sheet(system, p, x, workspace);
     };
     tightened();
