@@ -12,6 +12,7 @@
 #include "corank/result/files/verification.h"
 #include "corank/result/values/sentences.h"
 #include "corank/study/answer.h"
+#include "corank/symbolic/sets/set_parts.h"
 #include "corank/symbolic/writing/printer.h"
 
 namespace corank::app {
@@ -122,7 +123,9 @@ void add_requirements(const CLI::App& sub, ReportCommand& command, const symboli
     throw UsageError(fmt::format("--require: without effect; expected --sets {}", set));
   if (chosen || mechanism.requirements().empty() || !command.results.empty()) return;
   try {
-    symbolic::kernel_question(mechanism, symbolic::SingularitySet::requirements);
+    constexpr auto kSet = symbolic::SingularitySet::requirements;
+    for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, kSet))
+      static_cast<void>(symbolic::SetEquations(mechanism, kSet, part));
     command.search.sets.push_back(set);
   } catch (const symbolic::ModelError& error) {
     if (asked) throw;

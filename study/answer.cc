@@ -24,6 +24,7 @@ bool is_component(const Question& q) { return q.part && std::holds_alternative<s
 // The side that was taken where none was asked for.
 std::string kernel_of(const Question& q) {
   if (!symbolic::definition(q.set).has_kernel() || is_component(q)) return "";
+  if (q.part && std::holds_alternative<symbolic::RequirementPart>(*q.part)) return to_string(symbolic::KernelSide::right);
   return to_string(symbolic::kernel_question(q.model, *q.set, q.kernel).side);
 }
 
@@ -180,7 +181,8 @@ result::Result describe(const Question& question, const System& system, const Op
                     search.max_solutions,         search.time_limit,  question.constants};
   result.options.corank = system.kernel_vectors;
   result.options.outputs = question.outputs;
-  if (question.part && !is_component(question)) result.outputs = question.model.outputs();
+  if (question.part && std::holds_alternative<symbolic::BoundaryPart>(*question.part))
+    result.outputs = question.model.outputs();
   result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   describe_corank(system, result);
   if (question.assembly) describe_states(*question.assembly, result);

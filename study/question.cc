@@ -91,13 +91,16 @@ std::vector<Question> parts_of(const Question& question, const Ended& ended) {
     return {question};
   }
   const Components wanted = components_wanted(question);
-  if (!definition(question.set).of_parts && wanted == Components::no) return {question};
+  const bool of_requirements = definition(question.set).of_requirements;
+  if (of_requirements ? question.kernel || question.corank != 1 || !question.in_parts.value_or(true)
+                      : !definition(question.set).of_parts && wanted == Components::no)
+    return {question};
   std::vector<Question> parts;
   for (symbolic::SetPart& part : symbolic::set_parts(question.model, *question.set, ended)) {
     parts.push_back(question);
     parts.back().part = std::move(part);
   }
-  if (parts.empty()) return {question};
+  if (parts.empty() || (of_requirements && parts.size() == 1)) return {question};
   if (wanted == Components::if_simple)
     return std::any_of(parts.begin(), parts.end(), has_kernel) ? std::vector{question} : parts;
   if (parts.size() == 1 && !question.in_parts.value_or(false) && !is_better_than_whole(parts[0])) return {question};

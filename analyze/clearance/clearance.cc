@@ -68,6 +68,32 @@ study::Question within(const Clearance& clearance, double radius) {
   return question;
 }
 
+// The same about one requirement alone.
+study::Question about(study::Question question, std::size_t requirement) {
+  question.model.keep_requirements({question.model.requirements().at(requirement)});
+  question.model.set_source_text(symbolic::to_model(question.model));
+  return question;
+}
+
+// What is found of one set, in the variables of its system.
+struct FoundOf {
+  System system;
+  Nearest nearest;
+};
+
+// Of the union of sets.
+Nearest together(const std::vector<FoundOf>& sets, const FoundOf& best) {
+  Nearest all = best.nearest;
+  all.empty = std::ranges::all_of(sets, [](const FoundOf& f) { return f.nearest.empty; });
+  all.complete = std::ranges::all_of(sets, [](const FoundOf& f) { return f.nearest.complete; });
+  all.statistics = {};
+  for (const FoundOf& f : sets) {
+    all.lower = std::min(all.lower, f.nearest.lower);
+    all.statistics.processed += f.nearest.statistics.processed;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<CoordinateValue> coordinate_values(const System& system, const Box& box) {
@@ -92,8 +118,12 @@ Clearance clearance(const study::Question& question, const BallOptions& options,
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   result.ball = make_ball(question, options);
   result.precision = wanted.precision;
-  const symbolic::TrigonometricSystem equations = study::equations(result.ball.question);
-  const System system = study::system(result.ball.question, equations);
+  // Each requirement by itself: what all of them ask of one kernel vector takes longer.
+  std::vector<study::Question> questions;
+  const bool by_requirement = symbolic::definition(question.set).of_requirements;
+  for (std::size_t k = 0; by_requirement && k < question.model.requirements().size(); ++k)
+    questions.push_back(about(result.ball.question, k));
+  if (questions.size() < 2) questions = {result.ball.question};
   if (wanted.check_center && question.set) {
     result.center = center_of(question, result.ball, search, control);
     if (result.center == Clearance::Center::not_assembled)
@@ -101,25 +131,47 @@ Clearance clearance(const study::Question& question, const BallOptions& options,
                            "values that it can take, within the ranges of the model and those that are given");
   }
   stage.reset();
-  const solve::Prepared prepared = solve::prepare(of_any_robot(system), search, control);
-  const std::vector<Polynomial> differences = symbolic::polynomials(equations, result.ball.differences());
   // A singularity at the centre itself, but for rounding: no share of such a distance is to be had.
   const double nothing = kNothing * (std::isfinite(result.ball.room) ? result.ball.room : 1.0);
-  result.nearest = nearest(prepared, differences,
-                           {.precision = wanted.keep > 0 ? kRoundings : wanted.precision,
-                            .at_most = wanted.keep * (1 + kRoundings),
-                            .enough = wanted.keep > 0 ? std::nextafter(wanted.keep, 0) : nothing,
-                            .progress = wanted.progress},
-                           control);
+  NearestOptions wanted_of_nearest{.precision = wanted.keep > 0 ? kRoundings : wanted.precision,
+                                   .at_most = wanted.keep * (1 + kRoundings),
+                                   .enough = wanted.keep > 0 ? std::nextafter(wanted.keep, 0) : nothing,
+                                   .progress = wanted.progress};
+  std::vector<FoundOf> sets;
+  std::size_t best = 0;
+  for (const study::Question& part : questions) {
+    const symbolic::TrigonometricSystem equations = study::equations(part);
+    System system = study::system(part, equations);
+    const solve::Prepared prepared = solve::prepare(of_any_robot(system), search, control);
+    const std::vector<Polynomial> differences = symbolic::polynomials(equations, result.ball.differences());
+    Nearest found = nearest(prepared, differences, wanted_of_nearest, control);
+    sets.push_back({std::move(system), std::move(found)});
+    const std::optional<double> upper = sets.back().nearest.upper, least = sets[best].nearest.upper;
+    if (!upper || (least && *least < *upper)) continue;
+    best = sets.size() - 1;
+    double& at_most = wanted_of_nearest.at_most;  // no other part is searched farther away
+    at_most = at_most > 0 ? std::min(at_most, *upper) : *upper;
+    if (*upper <= wanted_of_nearest.enough) break;
+  }
+  const System& system = sets[best].system;
+  result.nearest = together(sets, sets[best]);
+  if (sets.size() < questions.size()) result.nearest.lower = 0;  // the others were not searched
   if (result.nearest.upper && *result.nearest.upper <= nothing) result.nearest.complete = true;
   if (result.nearest.upper) {
+    if (questions.size() > 1) result.requirement = best;
     result.values = coordinate_values(system, result.nearest.box);
     for (int j = 0; j < system.size(); ++j)
       if (system.variables[j].is_parameter()) result.robot.push_back({system.variables[j].name, result.nearest.box[j]});
   }
-  if (!result.nearest.unproven.empty()) {
-    const Box point(result.nearest.unproven.begin(), result.nearest.unproven.end());
-    for (const CoordinateValue& v : coordinate_values(system, point)) result.seemingly.emplace_back(v.name, v.value.mid());
+  result.nearest.unproven.clear();
+  double least = result.nearest.upper.value_or(std::numeric_limits<double>::infinity());
+  for (const auto& [of_part, found] : sets) {
+    if (found.unproven.empty() || !(found.unproven_distance < least)) continue;
+    least = result.nearest.unproven_distance = found.unproven_distance;
+    result.nearest.unproven = found.unproven;
+    result.seemingly.clear();
+    const Box point(found.unproven.begin(), found.unproven.end());
+    for (const CoordinateValue& v : coordinate_values(of_part, point)) result.seemingly.emplace_back(v.name, v.value.mid());
   }
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -130,6 +182,8 @@ result::Result claim_free(const Clearance& clearance, const solve::Options& sear
   const study::Question question = within(clearance, clearance.nearest.lower * (1 - kGivenAway));
   study::Options options{search, 0};
   options.search.proof = true;
+  if (question.model.toleranced().empty() && symbolic::definition(question.set).of_requirements)
+    return study::answer(study::systems_of(question, control), options, control);
   const System system = study::system(question);
   // Pieces of the set just outside the ball, of robots just outside their tolerances, have to be told from those inside.
   if (system.parameters() > 0 && clearance.nearest.upper && *clearance.nearest.upper > clearance.nearest.lower)
@@ -152,8 +206,11 @@ result::Result claim_free(const Clearance& clearance, const solve::Options& sear
 std::optional<result::Result> claim_nearest(const Clearance& clearance, solve::Control& control) {
   if (!clearance.nearest.upper) return std::nullopt;
   study::Question question = within(clearance, *clearance.nearest.upper * (1 + kGivenAway));
+  study::Question asked = clearance.ball.question;
+  if (clearance.requirement)
+    for (study::Question* q : {&question, &asked}) *q = about(*q, *clearance.requirement);
   // Narrower ranges would scale the kernel vector otherwise; the point that is known is in the scales of the search.
-  const System searched = study::system(clearance.ball.question);
+  const System searched = study::system(asked);
   choose_robot(searched, clearance.nearest.box, question.model);
   result::Result result;
   result.model = question.model.name();

@@ -37,7 +37,9 @@ struct Clearance {
   double precision = 0.01;
   Center center = Center::unknown;
   Nearest nearest;
-  std::vector<CoordinateValue> at;                        ///< of the ball's coordinates, the centre's enclosures
+  std::vector<CoordinateValue> at;  ///< of the ball's coordinates, the centre's enclosures
+  /// Of several requirements: whose limit the nearest proven one is, an index in the model's.
+  std::optional<std::size_t> requirement{};
   std::vector<CoordinateValue> values;                    ///< of the nearest proven singularity: the model's coordinates
   std::vector<CoordinateValue> robot;                     ///< that has it: its constants, those with a tolerance
   std::vector<std::pair<std::string, double>> seemingly;  ///< of a nearer point where nothing could be proven; no claim
@@ -66,10 +68,9 @@ std::string progress_text(double lower, const std::optional<double>& upper, std:
 /// A few lines for a terminal.
 std::string to_table(const Clearance& clearance);
 /// {"model", "set", "at": {name: value}, "in": [names], "radius": {"lo", "hi" (null: none was proven)}, "nearest" (null, or
-/// {name: {"lo", "hi"}}), "robot" (that has it: {constant with a
-/// tolerance: {"lo", "hi"}}), "empty", "room" (null: infinite), "end" (that the ball meets at
-/// that radius), "ball" (free_radius()), "seemingly" (null, or {"distance", "values"}), "center",
-/// "complete", "stopped", "precision", "processed", "seconds"}.
+/// {name: {"lo", "hi"}}), "robot" (that has it: {constant with a tolerance: {"lo", "hi"}}), "requirement" (of several: whose
+/// limit that is), "empty", "room" (null: infinite), "end" (that the ball meets at that radius), "ball" (free_radius()),
+/// "seemingly" (null, or {"distance", "values"}), "center", "complete", "stopped", "precision", "processed", "seconds"}.
 std::string to_json(const Clearance& clearance);
 
 /// What a clearance claims, but for a millionth of the radius, as results that corank verify checks like any other, with

@@ -66,6 +66,11 @@ std::string required_lines(const study::Question& q) {
   return text;
 }
 
+// Of several whose limit the nearest one is; else empty.
+std::string nearest_requirement(const Clearance& c) {
+  return c.requirement ? c.ball.question.model.requirement_texts().at(*c.requirement) : "";
+}
+
 }  // namespace
 
 std::string to_table(const Clearance& c) {
@@ -104,6 +109,7 @@ std::string to_table(const Clearance& c) {
     if (n.upper) {
       text += fmt::format("  nearest {} found, proven to exist{}:\n", what,
                           ends_first ? fmt::format(", at a distance of at most {}", hi) : "");
+      if (c.requirement) text += fmt::format("  of {}\n", nearest_requirement(c));
       text += value_lines(c.values);
       if (!c.robot.empty()) text += "  of the robot with\n";
       text += value_lines(c.robot);
@@ -126,6 +132,7 @@ std::string to_json(const Clearance& c) {
   json["radius"] = {{"lo", finite(c.lower())}, {"hi", or_null(n.upper)}};
   json["nearest"] = n.upper ? ends_of(c.values) : Json();
   json["robot"] = ends_of(c.robot);
+  if (c.requirement) json["requirement"] = nearest_requirement(c);
   json["empty"] = n.empty;
   json["room"] = finite(c.ball.room);
   json["end"] = or_null(c.ball.end);

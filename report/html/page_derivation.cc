@@ -57,17 +57,21 @@ std::string union_html(const SetView& view) {
   for (const result::Result& part : view.result.parts) {
     const std::size_t equals = part.condition.rfind(" = ");
     const std::string name = symbolic::html_text(part.part);
-    list += equals == std::string::npos ? "<li>" + name + ": singular, with a kernel vector of its own</li>"
-                                        : fmt::format("<li>{}<span class=\"source\">{}</span></li>",
-                                                      math(mathml(symbolic::Expression(part.condition.substr(0, equals)) ==
-                                                                  symbolic::Expression(part.condition.substr(equals + 3)))),
-                                                      part.part == part.condition ? "" : name);
+    list += view.set->of_requirements ? "<li>" + name + "</li>"
+            : equals == std::string::npos
+                ? "<li>" + name + ": singular, with a kernel vector of its own</li>"
+                : fmt::format("<li>{}<span class=\"source\">{}</span></li>",
+                              math(mathml(symbolic::Expression(part.condition.substr(0, equals)) ==
+                                          symbolic::Expression(part.condition.substr(equals + 3)))),
+                              part.part == part.condition ? "" : name);
   }
   return fmt::format(
-      "<details><summary>{}: the union of {} parts</summary><p>The assembly constraints and one of these "
-      "equations, in which the determinant of the block above factors:</p><div class=\"scroll\"><ol "
-      "class=\"equations\">{}</ol></div></details>",
-      view.words.title, view.result.parts.size(), list);
+      "<details><summary>{}: the union of {} parts</summary><p>The assembly constraints and one of these {}:</p><div "
+      "class=\"scroll\"><ol class=\"equations\">{}</ol></div></details>",
+      view.words.title, view.result.parts.size(),
+      view.set->of_requirements ? "requirements at its limit"
+                                : "equations, in which the determinant of the block above factors",
+      list);
 }
 
 }  // namespace

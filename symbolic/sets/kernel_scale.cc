@@ -312,7 +312,7 @@ std::vector<std::string> coordinate_sizes(const Mechanism& mechanism) {
 
 std::vector<std::string> kernel_scales(const Mechanism& mechanism, const KernelQuestion& kernel) {
   const std::shared_ptr<const Configurations> all = known_configurations(mechanism);
-  if (kernel.set.of_requirements) return scales_of_rates(at_requirements(mechanism), kernel, all->box);
+  if (kernel.at_limit) return scales_of_rates(kernel.at_limit->mechanism, kernel, all->box);
   if (mechanism.has_own_velocity_equation()) return scales_of_rates(mechanism, kernel, all->box);
   std::vector<double> scales;  // 0: an angle's
   if (kernel.side == KernelSide::left) {

@@ -19,66 +19,59 @@ bool is_of_distance(const RequirementLine& line) {
   return std::holds_alternative<DistanceLimit>(parse_requirement(line.text, line.where).limit);
 }
 
-// Builds at_requirements().
-class LimitMechanism {
+// A mechanism with the same configurations and other rates, to which velocity equations are added.
+class Companion {
  public:
-  explicit LimitMechanism(const Mechanism& mechanism) : mechanism_(mechanism), out_(mechanism.without_rates()) {}
+  explicit Companion(const Mechanism& mechanism) : mechanism_(mechanism), out_(mechanism.without_rates()) {}
 
-  Mechanism run() {
-    if (mechanism_.requirements().empty())
-      throw ModelError(model_place(mechanism_), "the model has no requirements",
-                       "some, in its section [REQUIREMENTS] or beside it");
-    RequirementTranslator translator(mechanism_, {});
-    for (const RequirementLine& line : mechanism_.requirements()) {
-      const Conditions conditions = translator.run(line);
-      refuse_distances(line, conditions);
-      for (const VelocityCondition& c : conditions.of_velocities) add(line, as_form(line, c));
-      if (conditions.excess)
-        out_.velocity(times(*conditions.excess, rate(CoordinateKind::length)) == Expression(0), line.where);
-    }
-    // As many locked rates, which do nothing, as the mechanism has freedom.
+  Expression rate(CoordinateKind kind, Role role = Role::passive) {
+    std::string name = "r" + std::to_string(out_.rates().size() + 1);
+    while (mechanism_.has(name)) name += "_";
+    return out_.rate(name, kind, role);
+  }
+  std::vector<Expression> rates(const std::vector<CoordinateKind>& kinds) {
+    std::vector<Expression> result;
+    for (const CoordinateKind kind : kinds) result.push_back(rate(kind));
+    return result;
+  }
+  void add_row(const RequirementLine& line, const std::vector<Expression>& entries, const std::vector<Expression>& rates) {
+    const auto row = kernel_row(entries, rates);
+    if (!row)
+      throw ModelError(line.where, "the requirement " + in_quotes(line.text) + " says nothing of a rate that nothing ties",
+                       "a mechanism whose rates its equations tie");
+    add_equation(line, *row);
+  }
+  void add_equation(const RequirementLine& line, const Expression& lhs) { out_.velocity(lhs == Expression(0), line.where); }
+  // Which do nothing: as many as the mechanism has freedom beyond that of the others.
+  void add_locked_rates(std::size_t freedom) {
     const std::size_t coordinates = mechanism_.coordinates().size(), equations = mechanism_.equations().size();
     if (coordinates <= equations)
       throw ModelError(model_place(mechanism_),
                        "the model has " + counted(coordinates, "coordinate") + " and " + counted(equations, "equation") +
                            ", so nothing moves",
                        "fewer equations than coordinates");
-    for (std::size_t k = 0; k < coordinates - equations; ++k) rate(CoordinateKind::length, Role::input);
-    return std::move(out_);
+    for (std::size_t k = equations + freedom; k < coordinates; ++k) rate(CoordinateKind::length, Role::input);
   }
+  Mechanism take() { return std::move(out_); }
 
  private:
-  Expression rate(CoordinateKind kind, Role role = Role::passive) {
-    std::string name = "r" + std::to_string(out_.rates().size() + 1);
-    while (mechanism_.has(name)) name += "_";
-    return out_.rate(name, kind, role);
-  }
-
-  void add(const RequirementLine& line, const VelocityCondition& c) {
-    std::vector<Expression> m, lambda;
-    for (const CoordinateKind kind : c.kinds) m.push_back(rate(kind));
-    for (std::size_t i = 0; i < c.rows.size(); ++i) lambda.push_back(rate(CoordinateKind::length));
-    const auto add_row = [&](const std::vector<Expression>& entries, const std::vector<Expression>& rates) {
-      const auto row = kernel_row(entries, rates);
-      if (!row)
-        throw ModelError(line.where, "the requirement " + in_quotes(line.text) + " says nothing of a rate that nothing ties",
-                         "a mechanism whose rates its equations tie");
-      out_.velocity(*row == Expression(0), line.where);
-    };
-    for (std::size_t j = 0; j < m.size(); ++j) {
-      std::vector<Expression> entries{c.form[j]}, rates{m[j]};
-      for (std::size_t i = 0; i < lambda.size(); ++i) {
-        entries.push_back(c.rows[i][j]);
-        rates.push_back(lambda[i]);
-      }
-      add_row(entries, rates);
-    }
-    for (const std::vector<Expression>& row : c.rows) add_row(row, m);
-  }
-
   const Mechanism& mechanism_;
   Mechanism out_;
 };
+
+// [diag(form), Aᵀ; A, 0] (m, λ) = 0.
+void add_block(const RequirementLine& line, const VelocityCondition& c, Companion& to) {
+  const std::vector<Expression> m = to.rates(c.kinds), lambda = to.rates(std::vector(c.rows.size(), CoordinateKind::length));
+  for (std::size_t j = 0; j < m.size(); ++j) {
+    std::vector<Expression> entries{c.form[j]}, rates{m[j]};
+    for (std::size_t i = 0; i < lambda.size(); ++i) {
+      entries.push_back(c.rows[i][j]);
+      rates.push_back(lambda[i]);
+    }
+    to.add_row(line, entries, rates);
+  }
+  for (const std::vector<Expression>& row : c.rows) to.add_row(line, row, m);
+}
 
 }  // namespace
 
@@ -185,6 +178,61 @@ KeptDistances kept_distances(const Mechanism& mechanism, const TrigonometricSyst
   return result;
 }
 
-Mechanism at_requirements(const Mechanism& mechanism) { return LimitMechanism(mechanism).run(); }
+Mechanism at_requirements(const Mechanism& mechanism) {
+  if (mechanism.requirements().empty())
+    throw ModelError(model_place(mechanism), "the model has no requirements",
+                     "some, in its section [REQUIREMENTS] or beside it");
+  Companion companion(mechanism);
+  RequirementTranslator translator(mechanism, {});
+  for (const RequirementLine& line : mechanism.requirements()) {
+    const Conditions conditions = translator.run(line);
+    refuse_distances(line, conditions);
+    for (const VelocityCondition& c : conditions.of_velocities) add_block(line, as_form(line, c), companion);
+    if (conditions.excess) companion.add_equation(line, times(*conditions.excess, companion.rate(CoordinateKind::length)));
+  }
+  companion.add_locked_rates(0);
+  return companion.take();
+}
+
+std::vector<RequirementPart> requirement_parts(const Mechanism& mechanism) {
+  std::vector<RequirementPart> parts;
+  RequirementTranslator translator(mechanism, {});
+  for (std::size_t k = 0; k < mechanism.requirements().size(); ++k) {
+    const RequirementLine& line = mechanism.requirements()[k];
+    const Conditions conditions = translator.run(line);
+    refuse_distances(line, conditions);
+    const std::size_t n = std::max<std::size_t>(conditions.of_velocities.size(), 1);
+    for (std::size_t c = 0; c < n; ++c) {
+      std::string name = n > 1 ? line.text + " (" + std::to_string(c + 1) + ")" : line.text;
+      const auto is_taken = [&](const std::string& text) {
+        return std::ranges::any_of(parts, [&](const RequirementPart& p) { return p.name == text; });
+      };
+      if (is_taken(name)) continue;  // the same requirement again
+      parts.push_back({std::move(name), k, c});
+    }
+  }
+  return parts;
+}
+
+LimitCompanion at_limit(const Mechanism& mechanism, const RequirementPart& part) {
+  const RequirementLine& line = mechanism.requirements().at(part.requirement);
+  Conditions conditions = RequirementTranslator(mechanism, {}).run(line);
+  Companion companion(mechanism);
+  if (conditions.excess) {
+    companion.add_equation(line, times(*conditions.excess, companion.rate(CoordinateKind::length)));
+    companion.add_locked_rates(0);
+    return {companion.take(), {}};
+  }
+  VelocityCondition& condition = conditions.of_velocities.at(part.condition);
+  if (condition.groups.empty()) {
+    add_block(line, condition, companion);
+    companion.add_locked_rates(0);
+    return {companion.take(), {}};
+  }
+  const std::vector<Expression> m = companion.rates(condition.kinds);
+  for (const std::vector<Expression>& row : condition.rows) companion.add_row(line, row, m);
+  companion.add_locked_rates(1);
+  return {companion.take(), std::move(condition)};
+}
 
 }  // namespace corank::symbolic

@@ -13,6 +13,8 @@
 #include "corank/core/requirement.h"
 #include "corank/core/system.h"
 #include "corank/symbolic/model/mechanism.h"
+#include "corank/symbolic/sets/requirement_conditions.h"
+#include "corank/symbolic/sets/requirement_part.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::symbolic {
@@ -64,5 +66,19 @@ KeptDistances kept_distances(const Mechanism& mechanism, const TrigonometricSyst
 /// configuration a requirement that is met once is met all along.
 /// Throws ModelError as Requirements does, where there is none, and for a motor under several loads.
 Mechanism at_requirements(const Mechanism& mechanism);
+
+/// What is asked at a requirement's limit of the rates m of `mechanism`, its companion: that they are a kernel vector, as in
+/// at_requirements(); of an effort or an error in place of that
+///   A m = 0, ‖m‖ = 1, Σ_g weight_g r_g = bound m_last, r_g = ‖m_g‖.
+/// No multipliers, and any number of loads: ker A is a line but at configurations that are singular.
+/// Theorem: a path on which the requirement is met at first, and not all along, meets such a configuration. Proof: at the end
+/// q of the first piece on which it is met, unit vectors of ker A converge, so there is an m of ker A(q) with ≤ in place of
+/// =. If ker A(q) is a line, then = holds, or the requirement was met at q and beyond. Else ker A(q) has a vector with
+/// m_last = 0, so with ≥, and the unit vectors of ker A(q) hang together. ∎
+struct LimitCompanion {
+  Mechanism mechanism;
+  std::optional<VelocityCondition> on_a_line;  ///< with groups
+};
+LimitCompanion at_limit(const Mechanism& mechanism, const RequirementPart& part);
 
 }  // namespace corank::symbolic

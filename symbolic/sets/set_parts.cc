@@ -6,13 +6,15 @@
 namespace corank::symbolic {
 
 std::string text(const SetPart& part) {
-  const auto* component = std::get_if<Component>(&part);
-  return component ? component->name : std::get<BoundaryPart>(part).text();
+  if (const auto* component = std::get_if<Component>(&part)) return component->name;
+  if (const auto* requirement = std::get_if<RequirementPart>(&part)) return requirement->name;
+  return std::get<BoundaryPart>(part).text();
 }
 
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended) {
   const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
   if (definition(set).of_parts) return as_parts(boundary_parts(mechanism));
+  if (definition(set).of_requirements) return as_parts(requirement_parts(mechanism));
   return as_parts(decompose(mechanism, kernel_question(mechanism, set), ended));
 }
 
@@ -25,6 +27,8 @@ SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, SetPa
     : mechanism_(definition(set).of_parts ? mechanism.without_rates() : mechanism), set_(set), part_(std::move(part)) {
   if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {
     if (!limits->of_output) kernel_.emplace(boundary_kernel(mechanism_, *limits));
+  } else if (const auto* requirement = std::get_if<RequirementPart>(&*part_)) {
+    kernel_.emplace(kernel_question(mechanism_, *requirement));
   } else if (const std::optional<ExpressionMatrix>& block = std::get<Component>(*part_).block) {
     const std::vector<SourceLocation> where(block->rows.size(), SourceLocation{mechanism.name(), 0, 0});
     kernel_.emplace(KernelQuestion{definition(set), "B", *block, where, KernelSide::right, {}});
@@ -47,8 +51,8 @@ TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales,
   if (!part_) return system;
   if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {
     set_at_limits(*limits, system);
-  } else {
-    add_condition(std::get<Component>(*part_), system);
+  } else if (const auto* component = std::get_if<Component>(&*part_)) {
+    add_condition(*component, system);
   }
   return system;
 }

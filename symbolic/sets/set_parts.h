@@ -1,5 +1,6 @@
 // Sets and their parts as equations. A set that is the union of parts is solved as these, each by a system of its own: a
-// workspace's boundary, by the limits that are met (boundary.h), and a set whose matrix decomposes (decomposition.h).
+// workspace's boundary, by the limits that are met (boundary.h), a set whose matrix decomposes (decomposition.h), and that of
+// requirements' limits (requirement_part.h).
 #pragma once
 
 #include <optional>
@@ -11,15 +12,16 @@
 #include "corank/core/system.h"
 #include "corank/symbolic/sets/boundary.h"
 #include "corank/symbolic/sets/decomposition.h"
+#include "corank/symbolic/sets/requirement_part.h"
 
 namespace corank::symbolic {
 
-using SetPart = std::variant<BoundaryPart, Component>;
+using SetPart = std::variant<BoundaryPart, Component, RequirementPart>;
 
 /// "theta2 at its upper limit"; "phi_rod1 = theta1". No two parts of a set have the same.
 std::string text(const SetPart& part);
 
-/// boundary_parts(), or decompose(). Throws ModelError as these do.
+/// boundary_parts(), requirement_parts(), or decompose(). Throws ModelError as these do.
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended = {});
 
 /// What solves a set, or one of its parts: what its kernel is asked of, made once. Throws ModelError as kernel_question(),

@@ -7,6 +7,7 @@
 
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/sets/cusps_and_nodes.h"
+#include "corank/symbolic/sets/limit_on_a_line.h"
 #include "corank/symbolic/sets/limits.h"
 #include "corank/symbolic/sets/requirements.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
@@ -166,6 +167,25 @@ KernelQuestion question_of(const Mechanism& mechanism, const VelocityEquation& v
   return kernel;
 }
 
+bool is_on_a_line(const KernelQuestion& kernel) { return kernel.at_limit && kernel.at_limit->on_a_line; }
+
+KernelQuestion at_limits(const SetDefinition& set, LimitCompanion limit, std::optional<KernelSide> side) {
+  constexpr std::array kInputs{Role::input};
+  const VelocityEquation velocity = derive(limit.mechanism).velocity;
+  auto shared = std::make_shared<const LimitCompanion>(std::move(limit));
+  if (!shared->on_a_line) {
+    KernelQuestion kernel = question_of(shared->mechanism, velocity, set, kInputs, set.matrix, side);
+    kernel.at_limit = std::move(shared);
+    return kernel;
+  }
+  if (side == KernelSide::left)
+    throw ModelError(model_place(shared->mechanism), "the limit of an effort or an error has no left kernel",
+                     "the right kernel");
+  KernelQuestion kernel{set, "A", velocity.without(kInputs), velocity.where, KernelSide::right, {}};
+  kernel.at_limit = std::move(shared);
+  return kernel;
+}
+
 constexpr const char* kStem = "xi";
 
 // Component i of a_j, of several vectors: 3/100 more than the inverse of i + 29 j + 1 modulo 97, in hundredths. The sequence
@@ -256,6 +276,9 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
         system.equations.push_back({*lhs == Expression(0), source, right ? kernel.where[i] : model_place(mechanism), true});
     }
   }
+  if (is_on_a_line(kernel))
+    return add_limit_on_a_line(system, mechanism, *kernel.at_limit->on_a_line,
+                               scaled(system.kernel_unknowns, system.kernel_scales));
   std::vector<std::vector<Expression>> left = xi;  // of which it asks that they are not all 0
   for (auto& v : left)
     for (const std::size_t j : passive.eliminated | std::views::reverse) v.erase(v.begin() + j);
@@ -299,12 +322,16 @@ void KernelQuestion::drop(const std::vector<std::size_t>& rows) {
   }
 }
 
+KernelQuestion kernel_question(const Mechanism& mechanism, const RequirementPart& part) {
+  return at_limits(definition(SingularitySet::requirements), at_limit(mechanism, part), std::nullopt);
+}
+
 KernelQuestion kernel_question(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side) {
   const SetDefinition& asked = definition(set);
   if (asked.of_requirements) {
-    const Mechanism companion = at_requirements(mechanism);
-    constexpr std::array kInputs{Role::input};
-    return question_of(companion, derive(companion).velocity, asked, kInputs, asked.matrix, side);
+    const std::vector<RequirementPart> parts = requirement_parts(mechanism);
+    if (parts.size() == 1) return at_limits(asked, at_limit(mechanism, parts[0]), side);
+    return at_limits(asked, {at_requirements(mechanism), {}}, side);
   }
   const VelocityEquation velocity = derive(mechanism).velocity;
   const char* const name = velocity.given && asked.locked.empty() ? "L" : asked.matrix;
@@ -315,12 +342,15 @@ KernelQuestion kernel_question(const Mechanism& mechanism, SingularitySet set, s
 }
 
 KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion kernel) {
-  if (kernel.side == KernelSide::right) kernel.passive = eliminate_passive_rates(mechanism, kernel.matrix);
+  if (kernel.side == KernelSide::right && !is_on_a_line(kernel))
+    kernel.passive = eliminate_passive_rates(mechanism, kernel.matrix);
   return kernel;
 }
 
 TrigonometricSystem singularity_system(const Mechanism& mechanism, const KernelQuestion& kernel,
                                        const std::vector<std::string>& scales, int corank) {
+  if (is_on_a_line(kernel) && corank != 1)
+    throw ModelError(model_place(mechanism), "the limit of an effort or an error has no corank", "a corank of 1");
   TrigonometricSystem system = plain_system(mechanism);
   system.name += std::string(" ") + kernel.set.name + (corank > 1 ? " corank " + std::to_string(corank) : "");
   system.kernel_scales = scales;

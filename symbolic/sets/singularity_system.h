@@ -5,6 +5,7 @@
 // 2–3.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@
 #include "corank/symbolic/velocity/velocity_equation.h"
 
 namespace corank::symbolic {
+
+struct LimitCompanion;
+struct RequirementPart;
 
 /// Equations with sines and cosines over coordinates, then kernel unknowns.
 struct TrigonometricSystem {
@@ -33,7 +37,8 @@ struct TrigonometricSystem {
     std::string name;
     int lower = -1, upper = 1;
   };
-  std::vector<Unknown> further_unknowns;            ///< of cusps and nodes, in place of kernel unknowns
+  /// Of cusps and nodes, in place of kernel unknowns; of a limit on a line (LimitCompanion) the r_g, beside them.
+  std::vector<Unknown> further_unknowns;
   std::optional<DependentAngle> dependent_angle{};  ///< of angles that have more than one value
   struct Equation {
     Relation relation;
@@ -57,6 +62,8 @@ struct KernelQuestion {
   std::vector<std::size_t> dropped;    ///< of a left kernel: the rows of L that are dependencies, and not in M
   PassiveRates passive{};              ///< of M, where they are eliminated
   std::vector<KernelQuestion> also{};  ///< one more, where the set asks for two kernels
+  /// Of a set of requirements' limits: whose rates the kernel vector is (requirements.h).
+  std::shared_ptr<const LimitCompanion> at_limit{};
 
   /// Leaves rows out of M, those of dependencies.
   void drop(const std::vector<std::size_t>& rows);
@@ -65,6 +72,9 @@ struct KernelQuestion {
 /// Of a set that has a kernel, or of a locus whose cusps or nodes it is. Throws ModelError as singularity_system does.
 KernelQuestion kernel_question(const Mechanism& mechanism, SingularitySet set,
                                std::optional<KernelSide> side = std::nullopt);
+
+/// Of one part of the limits of requirements.
+KernelQuestion kernel_question(const Mechanism& mechanism, const RequirementPart& part);
 
 /// The same question with the passive rates eliminated, where it is about a right kernel and has such.
 KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion kernel);

@@ -4,6 +4,7 @@
 
 #include "corank/core/check.h"
 #include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/requirements.h"
 #include "corank/symbolic/velocity/exact_matrix.h"
 
 namespace corank::symbolic {
@@ -131,8 +132,8 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
 
 std::optional<PolynomialMatrix> locked_polynomials(const Mechanism& mechanism, SingularitySet set) {
   const SetDefinition& asked = definition(set);
-  const ExpressionMatrix matrix =
-      asked.of_requirements ? kernel_question(mechanism, set).matrix : derive(mechanism).velocity.without(asked.locked);
+  const ExpressionMatrix matrix = asked.of_requirements ? derive(at_requirements(mechanism)).velocity.without(kInputs)
+                                                        : derive(mechanism).velocity.without(asked.locked);
   std::optional<std::vector<PolynomialMatrix>> found = as_polynomials(mechanism, std::span(&matrix, 1));
   if (!found) return std::nullopt;
   return std::move(found->front());

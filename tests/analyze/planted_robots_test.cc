@@ -25,15 +25,17 @@ class Planted {
       tolerances_[k] = thousandths(0.001, 0.006);
     }
     const auto text = [](double x) { return std::to_string(x); };
-    const double k = thousandths(1, 3), load = thousandths(5, 20), error = thousandths(0.002, 0.02);
+    const double k = thousandths(1, 3), load = thousandths(5, 20), along = thousandths(1, 9),
+                 error = thousandths(0.002, 0.02);
     switch (below(4)) {
       case 0: require("amplification(outputs) <= " + text(k), k, [](const MatrixXd& j) { return amplification(j); }); break;
       case 1:
         require("amplification(inputs) <= " + text(k), k, [](const MatrixXd& j) { return amplification(j.inverse()); });
         break;
       case 2:  // decimetres
-        require("torque(theta2) <= " + text(k) + " N m under force(J3x, J3y) <= " + text(load) + " N", 10 * k,
-                [load](const MatrixXd& j) { return load * j.col(0).norm(); });
+        require("torque(theta2) <= " + text(k) + " N m under force(J3x, J3y) <= " + text(load) +
+                    " N, force(J3x) <= " + text(along) + " N",
+                10 * k, [=](const MatrixXd& j) { return load * j.col(0).norm() + along * std::fabs(j(0, 0)); });
         break;
       default:
         require("error(J3x, J3y) <= " + text(k) + " mm under inputs <= " + text(error), k / 100, [error](const MatrixXd& j) {

@@ -129,6 +129,57 @@ TEST(RequiredBall, HoldsForEveryRobotWithinTolerances) {
   }
 }
 
+// Two motors under several loads each, whatever the posture: no place in the ball contradicts it, and where the nearest limit
+// is, one motor has its largest torque in one posture.
+TEST(RequiredBall, OfTorquesUnderSeveralLoadsHoldsNoLimit) {
+  std::mt19937 random(11);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+  int met = 0;
+  for (unsigned k = 0; k < test::seeds(8); ++k) {
+    SCOPED_TRACE(k);
+    const double x = number(0.2, 0.9), y = number(0.2, 0.9), f = number(0.5, 2), g = number(0.1, 1);
+    const auto loads = [&](const MatrixXd& j, int motor) { return f * j.col(motor).norm() + g * std::fabs(j(0, motor)); };
+    std::array<double, 2> worst{};
+    for (const MatrixXd& j : five_bar_postures(x, y, 0.9, 1.18))
+      for (const int motor : {0, 1}) worst[motor] = std::max(worst[motor], loads(j, motor));
+    std::array<double, 2> most{};
+    std::vector<std::string> lines;
+    for (const int motor : {0, 1}) {
+      most[motor] = std::round(1000 * number(1.02, 2) * worst[motor]) / 1000;
+      lines.push_back(fmt::format("torque(theta{}) <= {:.3f} under force(J3x, J3y) <= {:.17g}, force(J3x) <= {:.17g}",
+                                  motor == 0 ? 2 : 5, most[motor], f, g));
+    }
+    BallOptions ball;
+    ball.at = {{"J3x", symbolic::parse_expression(fmt::format("{:.17g}", x), "x")},
+               {"J3y", symbolic::parse_expression(fmt::format("{:.17g}", y), "y")}};
+    ball.in = {"J3x", "J3y"};
+    solve::Control control;
+    const Clearance found = clearance(required(model_question("dextar.cuik", SingularitySet::requirements), lines), ball,
+                                      {.precision = 0.01}, {}, control);
+    ASSERT_TRUE(found.nearest.complete && found.nearest.upper);
+    EXPECT_GT(found.lower(), 0);
+    for (int n = 0; n < 2000; ++n) {
+      const double angle = number(-M_PI, M_PI), r = found.free_radius() * std::sqrt(number(0, 1));
+      const auto all = five_bar_postures(x + r * std::cos(angle), y + r * std::sin(angle), 0.9, 1.18);
+      ASSERT_EQ(all.size(), 4u);
+      for (const MatrixXd& j : all)
+        for (const int motor : {0, 1}) EXPECT_LT(loads(j, motor), most[motor] * (1 + 1e-9));
+    }
+    std::array<double, 2> at{};
+    for (const CoordinateValue& v : found.values)
+      if (v.name == "J3x" || v.name == "J3y") at[v.name == "J3y"] = v.value.mid();
+    EXPECT_NEAR(std::hypot(at[0] - x, at[1] - y), *found.nearest.upper, 1e-6);
+    bool at_limit = false;
+    for (const MatrixXd& j : five_bar_postures(at[0], at[1], 0.9, 1.18))
+      for (const int motor : {0, 1}) at_limit = at_limit || std::fabs(loads(j, motor) / most[motor] - 1) < 1e-5;
+    // … or both motors are anything, at a singular configuration.
+    for (const MatrixXd& j : five_bar_postures(at[0], at[1], 0.9, 1.18)) at_limit = at_limit || !(amplification(j) < 1e4);
+    EXPECT_TRUE(at_limit) << at[0] << " " << at[1];
+    met += found.requirement.has_value();
+  }
+  EXPECT_GT(met, 0);
+}
+
 TEST(RequiredMap, OfAFunctionIsWhereItsSignIsKnown) {
   const MapQuestion question{
       .question = required(question_of("[CONSTANTS]\na := 0\nb := 0\n[SYSTEM VARS]\nx : [-9, 9]\n[SYSTEM EQS]\n"

@@ -212,6 +212,29 @@ TEST(Requirements, ReachTheirLimitsOnASet) {
   EXPECT_THROW(kernel_question(model, SingularitySet::requirements), ModelError) << "there are none";
 }
 
+// With the motor locked, u moves x: A = (1, sin u), and F |m_x| = 1/2 |m_u| asks for no multipliers.
+TEST(Requirements, OfEffortsTakeSeveralLoadsWithoutMultipliers) {
+  const Mechanism model = parse_model(
+      "[SYSTEM VARS]\nx : [-2, 2]\ny : [-2, 2]\nu ~ [-pi, pi]\n[SYSTEM EQS]\nx = cos(u);\ny = sin(u);\n"
+      "[INPUTS] u\n[OUTPUTS] x, y\n",
+      "m.cuik");
+  const Mechanism one = with(model, {"torque(u) <= 1/2 under force(x) <= 3, force(x, y) <= 1"});
+  const KernelQuestion kernel = kernel_question(one, SingularitySet::requirements);
+  EXPECT_EQ(kernel.matrix.rows.size(), 2u);
+  EXPECT_EQ(kernel.matrix.columns.size(), 3u);
+  const TrigonometricSystem system = singularity_system(one, SingularitySet::requirements);
+  EXPECT_EQ(system.kernel_unknowns.size(), 3u);
+  EXPECT_EQ(system.further_unknowns.size(), 2u);
+  EXPECT_THROW(singularity_system(one, SingularitySet::requirements, KernelSide::left), ModelError);
+  EXPECT_THROW(singularity_system(one, SingularitySet::requirements, {}, {}, 2), ModelError);
+  const Mechanism two = with(model, {"torque(u) <= 1/2 under force(x) <= 3, force(x, y) <= 1", "x <= 1"});
+  const std::vector<RequirementPart> parts = requirement_parts(two);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1].name, "x <= 1");
+  EXPECT_EQ(kernel_question(two, parts[1]).matrix.rows.size(), 1u);
+  EXPECT_THROW(at_requirements(two), ModelError) << "one matrix for all has one load";
+}
+
 // Three motors for two freedoms: the loads do not say what each of them does. And equations that leave no freedom.
 TEST(Requirements, OfMotorsThatTheLoadsDoNotDetermineAreRefused) {
   Mechanism more = dextar();
@@ -332,12 +355,6 @@ TEST(Requirements, OfAnglesBetweenLinesAreComparisons) {
   EXPECT_THAT(refusal(model, "pressure_angle(A B C, C D) <= 1"), HasSubstr("a line has 3 points"));
   EXPECT_THAT(refusal(model, "transmission_angle(A B) >= 1"), HasSubstr("it has 2 points"));
   EXPECT_THAT(refusal(model, "transmission_angle(A B K) >= 1"), HasSubstr("'K' is no body or point"));
-}
-
-TEST(Requirements, OfSeveralLoadsHaveNoSet) {
-  const auto question = [](const std::string& text) { kernel_question(with(rrr(), {text}), SingularitySet::requirements); };
-  EXPECT_NO_THROW(question("torque(theta1) <= 1 under force(x, y) <= 1"));
-  EXPECT_THROW(question("torque(theta1) <= 1 under force(x, y) <= 1, moment(phi) <= 1"), ModelError);
 }
 
 }  // namespace
