@@ -41,7 +41,8 @@ TubePlace locate(const Stratum& stratum, const certify::CompiledSystem& system, 
   for (const Polynomial& relation : stratum.motion.relations) {
     const double room = kTube * size_of(relation, system);
     const Interval value = certify::evaluate(relation, x);
-    if (value.lo() > room || value.hi() < -room) return {TubePlace::Where::outside};
+    const double reach = (1 - kThinSlab) * room;
+    if (value.lo() > reach || value.hi() < -reach) return {TubePlace::Where::outside};
     if (value.mag() <= (1 + kThinSlab) * room) continue;
     place.where = TubePlace::Where::across;
     const int j = only_variable(relation);
