@@ -77,7 +77,7 @@ Problem problem_with_strata(const Prepared& prepared, std::function<bool()> ende
   Problem problem(prepared.system, prepared.reduction, std::move(ended));
   const certify::CompiledSystem& system = problem.compiled;
   if (prepared.reduction.consistent && !problem.tolerant && system.parameters().empty() &&
-      system.unknowns() >= system.equations() + 2)
+      system.unknowns() >= system.equations() + 1)
     problem.strata = find_strata(problem, prepared.reduction.system);
   return problem;
 }

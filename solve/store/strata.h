@@ -5,7 +5,7 @@
 // become narrow first.
 #pragma once
 
-#include <span>
+#include <functional>
 #include <vector>
 
 #include "corank/certify/newton.h"
