@@ -76,9 +76,9 @@ std::vector<Stratum> find_strata(const Problem& problem, const System& system) {
 Problem problem_with_strata(const Prepared& prepared, std::function<bool()> ended) {
   Problem problem(prepared.system, prepared.reduction, std::move(ended));
   const certify::CompiledSystem& system = problem.compiled;
-  if (prepared.reduction.consistent && !problem.tolerant && system.parameters().empty() &&
-      system.unknowns() >= system.equations() + 1)
-    problem.strata = find_strata(problem, prepared.reduction.system);
+  const bool exact = prepared.reduction.consistent && !problem.tolerant && system.parameters().empty();
+  const bool any_set = system.equations() > 0 && system.unknowns() > system.equations();
+  if (exact && any_set && prepared.options.roots.empty()) problem.strata = find_strata(problem, prepared.reduction.system);
   return problem;
 }
 

@@ -14,8 +14,8 @@
 
 namespace corank::solve {
 
-/// The problem of a search, its strata included. They depend on the prepared system alone, so all who search it know the
-/// same ones, in the same order. None are sought for sets of dimension 1 or less, and with parameters or tolerances.
+/// The problem of a search, its strata included. These depend on the prepared system alone, so all who search it know the
+/// same ones, in the same order. None are sought for sets of points, in given boxes, and with parameters or tolerances.
 Problem problem_with_strata(const Prepared& prepared, std::function<bool()> ended);
 
 /// A sheet on the motion with this index, and the step of its proof; not proven where certify::prove_self_motion proves
