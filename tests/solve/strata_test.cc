@@ -2,8 +2,8 @@
 //
 //     (z − c) p(x) = 0,  (z − c) q(x) = 0   in (x1, x2, x3, z):
 //
-// the cube z = c of dimension 3, where 2 is expected, crossed by a surface over the curve p = q = 0, on which z is free. With
-// x3 = e besides, dimensions are less by one: a square, crossed by lines.
+// the cube z = c of dimension 3, where 2 is expected, crossed by a surface over the curve p = q = 0, on which z is free.
+// With x3 = e besides, dimensions are less by one: a square, crossed by lines.
 #include "corank/solve/store/strata.h"
 
 #include <gtest/gtest.h>
