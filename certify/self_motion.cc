@@ -10,7 +10,7 @@
 namespace corank::certify {
 namespace {
 
-constexpr int kAttempts = 3;
+constexpr int kAttempts = 3, kZeroTightenings = 3;
 
 // The first variable of a relation that no other relation mentions; −1: none.
 int own_variable(const std::vector<Polynomial>& relations, std::size_t i) {
@@ -89,8 +89,11 @@ Sheet prove_self_motion(const CompiledSystem& system, const SelfMotion& motion, 
     Sheet sheet = newton_prove(system, e, start, w);
     if (!sheet.proven) return {};
     // (2): a zero of {R, g} for every value of the same free variables, inside that region.
-    const Sheet other = newton_prove(motion.compiled, r, sheet.image, w);
+    Sheet other = newton_prove(motion.compiled, r, sheet.image, w);
     if (!other.proven) return {};
+    // That zero stays in the image when rows that vanish there contract it.
+    for (int k = 0; k < kZeroTightenings && !contains(sheet.region, other.image); ++k)
+      tighten_sheet(motion.compiled, r, other.image, w);
     if (!contains(sheet.region, other.image)) {  // of {R, g} less may be known than of E: a larger region is to hold it
       for (const int d : sheet.dependent) {
         const std::size_t j = d;

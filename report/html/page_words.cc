@@ -49,7 +49,7 @@ void say_larger_sets(const result::Result& result, SetWords& words) {
   }
   const std::size_t along = how_many(
       cover.boxes, [](const auto& b) { return b.verdict == Verdict::undecided && b.reason == Reason::degenerate_set; });
-  if (along > 0) words.unproven.push_back(fmt::format("{} undecided {}.", boxes_are(along), result::along_set_text(cover)));
+  if (along > 0) words.unproven.push_back(fmt::format("{} undecided {}.", boxes_are(along), result::along_set_text(result)));
 }
 
 void say_points(const result::Result& result, SetWords& words) {

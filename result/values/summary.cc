@@ -195,24 +195,26 @@ std::string sigma_text(const Sigma& sigma) {
   return std::isinf(sigma.length) ? "sigma inf: proven sheets are left whole" : fmt::format("sigma {:g}", sigma.length);
 }
 
-std::string along_set_text(const Cover& cover) {
+std::string along_set_text(const Result& result) {
+  const Cover& cover = result.cover;
+  const bool some_found = !cover.self_motions.empty() ||
+                          std::ranges::any_of(result.parts, [](const Result& p) { return !p.cover.self_motions.empty(); });
   if (cover.observed_dimension <= cover.dimension) return "along a curve, or a larger set, of degenerate solutions";
-  return fmt::format(
-      "along a set of dimension {}, larger than expected, as samples show; this is not proven: {}", cover.observed_dimension,
-      cover.self_motions.empty() ? "no linear relations were found on it that make its equations dependent; --tolerance "
-                                   "1e-6 proves boxes for independent equations among them (partial)"
-                                 : "the linear relations that were found do not prove it there");
+  return fmt::format("along a set of dimension {}, larger than expected, as samples show; this is not proven: {}",
+                     cover.observed_dimension,
+                     some_found ? "the linear relations that were found do not prove it there"
+                                : "no linear relations were found on it that make its equations dependent; --tolerance "
+                                  "1e-6 proves boxes for independent equations among them (partial)");
 }
 
 namespace {
 
 std::string in_words(Reason reason, const Result& result) {
-  const Cover& cover = result.cover;
   using enum Reason;
   switch (reason) {
     case none: break;
     case degenerate_point: return "next to a degenerate solution, where the Jacobian does not have full rank";
-    case degenerate_set: return along_set_text(cover);
+    case degenerate_set: return along_set_text(result);
     case tolerance:
       if (!parameters_of(result).empty()) return "within the tolerances, robots may differ here";
       return "the coefficients' tolerance moves the solutions too far, or it is not shown that redundant equations hold";
@@ -227,6 +229,7 @@ std::string motions_text(const Result& result) {
   for (std::size_t k = 0; k < result.cover.self_motions.size(); ++k)
     text += fmt::format("a set larger than expected, in {}: {}\n", counted(boxes_on(result.cover, k), "box"),
                         motion_sentence(result, k));
+  for (const Result& part : result.parts) text += motions_text(part);
   return text;
 }
 

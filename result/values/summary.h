@@ -14,7 +14,7 @@ namespace corank::result {
 
 /// Along what boxes with Reason::degenerate_set lie; where that is larger than expected, of which dimension, and
 /// why it is not proven.
-std::string along_set_text(const Cover& cover);
+std::string along_set_text(const Result& result);
 
 /// The σ of a search, as tables say it.
 std::string sigma_text(const Sigma& sigma);

@@ -54,6 +54,7 @@ struct Coordinator::Search {
     for (Shard& shard : state.shards) parts.push_back(std::make_unique<Finished>(Finished{std::move(shard), {}, {}}));
     next_id = number_of_judge() / kNumbersOfUnit + 2;  // the judge has one of its own
     open = std::exchange(state.pass.boxes, {});
+    state.motions.begin(judge.problem());
     judge.set_sigma(state.cutting ? state.sigma : sigma_of_search(prepared, judge.problem()));
     if (state.cutting) list_sheets();
     for (const auto& part : parts) keep(of(*part));

@@ -4,6 +4,7 @@
 #include "corank/solve/distribution/cluster.h"
 #include "corank/solve/search/passes.h"
 #include "corank/solve/store/shard_bytes.h"
+#include "corank/solve/store/strata.h"
 
 namespace corank::solve {
 namespace {
@@ -34,7 +35,7 @@ void cut_at_once(const Prepared& prepared, const Problem& problem, ShardNumber l
 }  // namespace
 
 UnitRunner::UnitRunner(std::string_view prepared)
-    : prepared_(prepared_from(prepared)), problem_(prepared_.system, prepared_.reduction, {}) {
+    : prepared_(prepared_from(prepared)), problem_(problem_with_strata(prepared_, {})) {
   prepared_.options.max_found = prepared_.options.max_solutions = 0;
 }
 

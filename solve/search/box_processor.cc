@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "corank/solve/step/heuristics.h"
+#include "corank/solve/store/strata.h"
 
 namespace corank::solve {
 BoxProcessor::BoxProcessor(const Problem& problem, Shard& shard)
@@ -190,14 +191,16 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
 
 std::array<Waiting, 2> BoxProcessor::halves(Waiting box) const {
   const Interval side = box.x[split_variable_];
-  const double at = *split_point(side);
-  Waiting upper{box.x, box.share * (1 - kBisectionPoint), {}};
+  const double at = split_at_ ? *split_at_ : *split_point(side);
+  const double lower = split_at_ ? (at - side.lo()) / side.width() : kBisectionPoint;
+  Waiting upper{box.x, box.share * (1 - lower), {}};
   upper.x[split_variable_] = Interval(at, side.hi());
   box.x[split_variable_] = Interval(side.lo(), at);
-  return {Waiting{std::move(box.x), box.share * kBisectionPoint, {}}, std::move(upper)};
+  return {Waiting{std::move(box.x), box.share * lower, {}}, std::move(upper)};
 }
 
 BoxProcessor::Outcome BoxProcessor::give_up(std::span<Interval> x, Reason reason) {
+  split_at_.reset();
   find_settled(x);
   if (!settled_.empty() && !preconditioners_.over()) {
     if (!contractor_.run(x, shard_.statistics)) {
@@ -215,14 +218,59 @@ BoxProcessor::Outcome BoxProcessor::give_up(std::span<Interval> x, Reason reason
   return Outcome::done;
 }
 
+int BoxProcessor::widest(std::span<const Interval> x, double share) const {
+  const std::vector<double>& scales = problem_.compiled.scales();
+  const std::vector<double> finest = problem_.limits(share);
+  int widest = -1;
+  for (int j = 0; j < problem_.compiled.variables(); ++j) {
+    if (x[j].width() <= finest[j] || !split_point(x[j])) continue;
+    if (widest < 0 || x[j].width() * scales[widest] > x[widest].width() * scales[j]) widest = j;
+  }
+  return widest;
+}
+
+BoxProcessor::Outcome BoxProcessor::process_in_tube(std::span<Interval> x, int stratum, double postpone, double share) {
+  ++shard_.statistics.proofs_tried;
+  Box box = copy_of(x);
+  MotionProof proof = prove_on_stratum(problem_, problem_.strata[stratum].motion, stratum, box, workspace_);
+  if (recorder_ && proof.sheet.proven) recorder_->newton(proof.step, x);
+  if (recorder_) recorder_->keep(x);
+  if (proof.sheet.proven) {
+    shard_.sheets.push_back({std::move(box), std::move(proof.sheet), go_on_later()});
+    return Outcome::done;
+  }
+  split_variable_ = widest(x, std::max(postpone, kTubeShare));
+  if (split_variable_ >= 0) return Outcome::split;
+  LocalSolution near{midpoint(x), problem_.compiled.equations() - 1};
+  shard_.postponed.push_back({{std::move(box), share, go_on_later()}, std::move(near), false, {}, {}});
+  return Outcome::postponed;
+}
+
+std::optional<BoxProcessor::Outcome> BoxProcessor::process_on_strata(std::span<Interval> x, double postpone, double share) {
+  if (problem_.strata.empty()) return std::nullopt;
+  const Box box = copy_of(x);
+  for (std::size_t k = 0; k < problem_.strata.size(); ++k) {
+    const TubePlace place = locate(problem_.strata[k], problem_.compiled, box);
+    if (place.where == TubePlace::Where::inside) return process_in_tube(x, static_cast<int>(k), postpone, share);
+    if (place.where == TubePlace::Where::outside || place.variable < 0) continue;
+    if (recorder_) recorder_->keep(x);
+    split_variable_ = place.variable;
+    split_at_ = place.at;
+    return Outcome::split;
+  }
+  return std::nullopt;
+}
+
 BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpone, double share) {
   ++shard_.statistics.processed;
+  split_at_.reset();
   if (!contractor_.run(x, shard_.statistics)) {
     if (recorder_) recorder_->leaf_empty();
     return Outcome::done;
   }
   if (preconditioners_.over()) return Outcome::interrupted;
   if (contractor_.worth_proving() && certify(x, Proof::full)) return Outcome::done;
+  if (const auto outcome = process_on_strata(x, postpone, share)) return *outcome;
   std::optional<LocalSolution> near;
   split_variable_ = choose_split(x, postpone, near);
   if (split_variable_ >= 0) {

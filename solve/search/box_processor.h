@@ -66,6 +66,12 @@ class BoxProcessor {
   // A solution in x or next to it at which the Jacobian has not its full rank.
   std::optional<LocalSolution> degenerate_solution(std::span<const Interval> x, double share) const;
   std::vector<double> midpoint(std::span<const Interval> x) const;
+  // Where strata are known: cuts a box at the faces of their tubes, and treats those inside. Nothing: x is none of these.
+  std::optional<Outcome> process_on_strata(std::span<Interval> x, double postpone, double share);
+  // Inside a tube a box is proven, or divided, the widest side first; below kTubeShare it is postponed.
+  Outcome process_in_tube(std::span<Interval> x, int stratum, double postpone, double share);
+  // The side that is widest in typical sizes, of those wider than this share; −1: none can be divided.
+  int widest(std::span<const Interval> x, double share) const;
   int choose_split(std::span<const Interval> x, double share, std::optional<LocalSolution>& near);
   void add_unproven(std::span<const Interval> x, Verdict verdict, Reason reason = Reason::none);
   NodeId go_on_later() { return recorder_ ? recorder_->go_on_later() : NodeId{}; }
@@ -79,7 +85,8 @@ class BoxProcessor {
   Contractor contractor_;
   Slicer slicer_;
   int split_variable_ = -1;
-  std::vector<bool> settled_;  // BranchingRule::settled() of the box that is treated
+  std::optional<double> split_at_;  // nothing: off the side's middle
+  std::vector<bool> settled_;       // BranchingRule::settled() of the box that is treated
   std::vector<int> dependent_;
 };
 

@@ -14,6 +14,7 @@
 #include "corank/solve/search/passes.h"
 #include "corank/solve/step/preconditioner.h"
 #include "corank/solve/store/memory.h"
+#include "corank/solve/store/strata.h"
 
 namespace corank::solve {
 namespace {
@@ -71,7 +72,7 @@ class Estimator {
         control_(control),
         seconds_(seconds),
         random_(seed),
-        problem_(prepared.system, prepared.reduction, [&control] { return control.ended(); }) {
+        problem_(problem_with_strata(prepared, [&control] { return control.ended(); })) {
     problem_.set_sigma(sigma_of_search(prepared, problem_));
   }
 

@@ -7,13 +7,14 @@
 
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
+#include "corank/solve/store/strata.h"
 
 namespace corank::solve {
 
 Pool::Pool(const Prepared& prepared, Tally& tally, ShardNumber last_shard, const Problem* like)
     : prepared_(prepared),
       tally_(tally),
-      problem_(like ? *like : Problem(prepared.system, prepared.reduction, {})),
+      problem_(like ? *like : problem_with_strata(prepared, {})),
       numbers_(last_shard),
       workers_([this] {
         tally_.keep_thread();

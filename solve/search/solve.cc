@@ -33,6 +33,7 @@ class Search {
         tally_(prepared, control, most, journal),
         pool_(prepared, tally_, std::move(from.shards)),
         sigma_(cutting_ ? from.sigma : sigma_of_search(prepared, pool_.problem())) {
+    motions_.begin(pool_.problem());
     pool_.set_sigma(sigma_);
   }
 

@@ -107,6 +107,12 @@ inline constexpr double kNullTolerance = 1e-10, kRelationTolerance = 1e-9;
 inline constexpr double kDirectionShare = 0.15;  ///< of what the set's curvature and the samples' errors make of a direction
 inline constexpr std::size_t kDirectionsEach = 4, kDimensionSamples = 3;  ///< for each dimension of the kernel; of the set
 
+// Sets of degenerate solutions that are known before a search (strata.h, stratum.h) *
+inline constexpr int kFirstStarts = 12, kStarts = 48;  ///< if none of the first ones leads to such a set, there are no more
+inline constexpr double kTube = 0.2;                   ///< half the width of a tube
+inline constexpr double kTubeShare = 1.0 / 10;         ///< boxes inside are divided to this size only
+inline constexpr double kThinSlab = 1.0 / 16;          ///< of that: thinner slabs are not cut off at a face
+
 // Cutting of sheets (slicer.h, cut_planner.h); widths of σ *
 inline constexpr int kTightenings = 2, kPointTightenings = 20;  ///< an isolated solution: until its box stops shrinking
 /// A piece may be so much wider than what parameters move: its solutions for one robot are that much narrower.

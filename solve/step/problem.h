@@ -15,6 +15,7 @@
 #include "corank/solve/step/heuristics.h"
 #include "corank/solve/step/recorder.h"
 #include "corank/solve/step/sigma.h"
+#include "corank/solve/step/stratum.h"
 
 namespace corank::solve {
 
@@ -67,6 +68,7 @@ struct Problem {
   /// auxiliaries).
   std::vector<double> sigma;
   std::vector<double> equation_sizes;  ///< TypicalSizes::equations
+  std::vector<Stratum> strata;         ///< known before the search (solve/store/strata.h)
   std::function<bool()> ended;
 
  private:

@@ -11,7 +11,7 @@
 #include "corank/core/rounding.h"
 #include "corank/solve/step/heuristics.h"
 #include "corank/solve/step/points.h"
-#include "corank/solve/step/preconditioner.h"
+#include "corank/solve/store/strata.h"
 
 namespace corank::solve {
 namespace {
@@ -81,22 +81,6 @@ bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes,
   return 2 * along >= probes;
 }
 
-// The rows with a derivative that vanishes nowhere in the box. Of a row like s (a − b) = 0 where s = 0 and a = b nothing
-// follows there, though it is as good as any other a step away.
-std::vector<int> steady_rows(const certify::CompiledSystem& system, const Box& x) {
-  const UpwardRounding rounding;
-  std::vector<Interval> jacobian(system.entries());
-  system.jacobian(x, jacobian);
-  std::vector<int> result;
-  for (int row = 0; row < system.equations(); ++row)
-    for (int k = system.row_begin(row); k < system.row_begin(row + 1); ++k)
-      if (jacobian[k].mig() > 0) {
-        result.push_back(row);
-        break;
-      }
-  return result;
-}
-
 // Does no relation exclude the box?
 bool may_hold_in(const certify::SelfMotion& motion, const Box& x) {
   const UpwardRounding rounding;
@@ -105,21 +89,19 @@ bool may_hold_in(const certify::SelfMotion& motion, const Box& x) {
 
 }  // namespace
 
+void SelfMotions::begin(const Problem& problem) {
+  if (!known_.empty()) return;
+  known_ = problem.strata;
+  for (const Stratum& stratum : known_)
+    if (stratum.dimension > problem.compiled.unknowns() - problem.compiled.equations())
+      observed_ = std::max(observed_, stratum.dimension);
+}
+
 void SelfMotions::prove_on(std::size_t index, const Problem& problem, Postponed& box) {
-  const certify::SelfMotion& motion = known_[index].motion;
   certify::NewtonWorkspace workspace;
-  PreconditionerFactory of_system(problem.compiled), of_motion(motion.compiled);
-  const std::vector<int> steady = steady_rows(problem.compiled, box.box.x);
-  for (const std::vector<int>* rows : {static_cast<const std::vector<int>*>(nullptr), &steady}) {
-    const certify::Preconditioner e = of_system.near_solution(box.box.x, kMotionRankTolerance, rows);
-    if (e.rank() != static_cast<int>(motion.sufficient.size())) continue;
-    const certify::Preconditioner r = of_motion.at_midpoint(box.box.x, &e.dependent, &motion.sufficient);
-    if (r.rank() != e.rank()) continue;
-    box.proof = certify::prove_self_motion(problem.compiled, motion, e, r, box.box.x, workspace);
-    box.proof.motion = static_cast<int>(index);
-    box.step = e;
-    if (box.proof.proven) return;
-  }
+  auto [sheet, step] = prove_on_stratum(problem, known_[index].motion, static_cast<int>(index), box.box.x, workspace);
+  box.proof = std::move(sheet);
+  box.step = std::move(step);
 }
 
 bool SelfMotions::prove_on_known(const Problem& problem, Postponed& box) {
@@ -151,7 +133,7 @@ void SelfMotions::prove_cluster(const Problem& problem, const System& system, st
     if (candidate.dimension > expected) observed_ = std::max(observed_, candidate.dimension);
     if (!candidate.motion) continue;
     const auto same = std::ranges::find_if(
-        known_, [&](const Known& other) { return certify::same_relations(other.motion, *candidate.motion); });
+        known_, [&](const Stratum& other) { return certify::same_relations(other.motion, *candidate.motion); });
     const std::size_t index = same - known_.begin();
     if (same == known_.end()) {
       known_.push_back({std::move(*candidate.motion), candidate.dimension});
@@ -200,7 +182,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
 
 SelfMotions::Stored SelfMotions::stored() const {
   Stored result{{}, observed_, former_};
-  for (const Known& known : known_) result.motions.push_back({known.dimension, known.motion.relations});
+  for (const Stratum& known : known_) result.motions.push_back({known.dimension, known.motion.relations});
   return result;
 }
 
@@ -219,7 +201,7 @@ SelfMotions SelfMotions::restored(const System& system, Stored stored) {
 
 std::vector<SelfMotionRecord> SelfMotions::records(const certify::Reduction& reduction) const {
   std::vector<SelfMotionRecord> result;
-  for (const Known& known : known_) {
+  for (const Stratum& known : known_) {
     result.push_back({known.dimension, known.motion.relations});
     for (Polynomial& f : result.back().relations)
       for (Monomial& m : f.monomials)

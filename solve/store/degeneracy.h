@@ -13,6 +13,8 @@ namespace corank::solve {
 /// The self-motions that a search has met.
 class SelfMotions {
  public:
+  /// To be called when a search begins or goes on: the first motions are the strata that the problem knows.
+  void begin(const Problem& problem);
   /// Looks for self-motions through the boxes, all of about `share` of the typical sizes, and proves what it can:
   /// Postponed::proof. Returns for each other box Reason::none where it is to be divided further, else why not. Around an
   /// isolated degenerate solution a few boxes stay at each size, so those are divided on, down to a share of about 1e-7
@@ -41,11 +43,7 @@ class SelfMotions {
   bool prove_on_known(const Problem& problem, Postponed& box);
   void prove_on(std::size_t motion, const Problem& problem, Postponed& box);
 
-  struct Known {
-    certify::SelfMotion motion;
-    int dimension = 0;
-  };
-  std::vector<Known> known_;
+  std::vector<Stratum> known_;
   int observed_ = 0;
   std::size_t former_ = 0;  // the number of boxes at the last call
 };
