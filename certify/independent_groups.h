@@ -1,9 +1,9 @@
 // Equations that share nothing but parameters, such as the legs of a platform whose pose is given.
 //
-// The unknowns and the equations of F(p, x) = 0 fall apart into groups F_g(p, x_g) = 0. Theorem: for every p the zeros of F
-// are all combinations of one zero of each group. So the product of one sheet of each group over P (certify/solution_count.h)
-// is a sheet over P of F, all zeros of F over P lie on such products where each group's lie on its sheets, and two products
-// differ where their sheets of one group do.
+// The unknowns and the equations of F(p, x) = 0 fall apart into groups F_g(p, x_g) = 0. Theorem: for every p the zeros of
+// F are all combinations of one zero of each group. So the product of one sheet of each group over P
+// (certify/solution_count.h) is a sheet over P of F, all zeros of F over P lie on such products where each group's lie on
+// its sheets, and two products differ where their sheets of one group do.
 // Proof: F = 0 asks of x_g what F_g = 0 asks. For every p there is one zero of each group in its region, so one combination
 // in the product of the regions; it lies in the product of the images, in the interior of the former. The Jacobian in x is
 // block diagonal, with regular blocks.

@@ -129,8 +129,8 @@ TEST(RequiredBall, HoldsForEveryRobotWithinTolerances) {
   }
 }
 
-// Two motors under several loads each, whatever the posture: no place in the ball contradicts it, and where the nearest limit
-// is, one motor has its largest torque in one posture.
+// Two motors under several loads each, whatever the posture: no place in the ball contradicts it, and where the nearest
+// limit is, one motor has its largest torque in one posture.
 TEST(RequiredBall, OfTorquesUnderSeveralLoadsHoldsNoLimit) {
   std::mt19937 random(11);
   const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
