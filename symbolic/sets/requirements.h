@@ -72,8 +72,8 @@ Mechanism at_requirements(const Mechanism& mechanism);
 ///   A m = 0, ‖m‖ = 1, Σ_g weight_g r_g = bound m_last, r_g = ‖m_g‖.
 /// No multipliers, and any number of loads: ker A is a line but at configurations that are singular.
 /// Theorem: a path on which the requirement is met at first, and not all along, meets such a configuration. Proof: at the
-/// end q of the first piece on which it is met, unit vectors of ker A converge, so there is an m of ker A(q) with ≤ in place of
-/// =. If ker A(q) is a line, then = holds, or the requirement was met at q and beyond. Else ker A(q) has a vector with
+/// end q of the first piece on which it is met, unit vectors of ker A converge, so there is an m of ker A(q) with ≤ in place
+/// of =. If ker A(q) is a line, then = holds, or the requirement was met at q and beyond. Else ker A(q) has a vector with
 /// m_last = 0, so with ≥, and the unit vectors of ker A(q) hang together. ∎
 struct LimitCompanion {
   Mechanism mechanism;

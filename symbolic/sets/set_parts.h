@@ -1,6 +1,6 @@
 // Sets and their parts as equations. A set that is the union of parts is solved as these, each by a system of its own: a
-// workspace's boundary, by the limits that are met (boundary.h), a set whose matrix decomposes (decomposition.h), and that of
-// requirements' limits (requirement_part.h).
+// workspace's boundary, by the limits that are met (boundary.h), a set whose matrix decomposes (decomposition.h), and that
+// of requirements' limits (requirement_part.h).
 #pragma once
 
 #include <optional>
