@@ -168,8 +168,7 @@ Standing standing_of_form(const VelocityTest& test, const Kernel& kernel, Offset
 Standing standing_of_groups(const VelocityTest& test, const Kernel& kernel, Offsets offsets) {
   if (kernel.basis.size() != 1 || !kernel.exact) return Standing::open;
   const std::vector<AffineForm>& v = kernel.basis[0];
-  const AffineForm& last = v.back();
-  AffineForm gap = zero(offsets.size());  // Σ weight·(e·V) − bound·s·V_last
+  AffineForm gap = zero(offsets.size());  // Σ weight·(e·V), then − bound·Σ s·V_end
   Interval more;                          // what Σ weight·‖V‖ may be beyond Σ weight·(e·V)
   for (const VelocityTest::Group& g : test.groups) {
     const Interval weight = g.weight.enclose();
@@ -198,14 +197,18 @@ Standing standing_of_groups(const VelocityTest& test, const Kernel& kernel, Offs
     gap.add(weight, along);
     more += weight * Interval(-noise, (Interval(beyond) + Interval(noise)).hi());
   }
-  const double sign = center(last) < 0 ? -1 : 1;
-  const Interval bound = test.bound.enclose(), end = last.range(offsets);
-  const AffineForm sum = gap;
-  gap.add(-(bound * Interval(sign)), last);  // |V_last| ≥ s·V_last
+  AffineForm least = gap;  // Σ weight·(e·V) − bound·Σ |V_end|, at least
+  for (std::size_t j = v.size() - test.ends; j < v.size(); ++j) {
+    const double sign = center(v[j]) < 0 ? -1 : 1;
+    const Interval bound = test.bound.enclose(), end = v[j].range(offsets);
+    gap.add(-(bound * Interval(sign)), v[j]);  // |V_end| ≥ s·V_end
+    if (sign > 0 ? end.lo() >= 0 : end.hi() <= 0)
+      least.add(-(bound * Interval(sign)), v[j]);
+    else
+      least.constant -= bound * Interval(end.mag());
+  }
   if (gap.range(offsets).hi() + more.hi() < 0) return Standing::satisfied;
-  const bool signed_end = sign > 0 ? end.lo() >= 0 : end.hi() <= 0;
-  const Interval below = signed_end ? gap.range(offsets) : sum.range(offsets) - bound * Interval(end.mag());
-  return (below + more).lo() > 0 ? Standing::violated : Standing::open;
+  return (least.range(offsets) + more).lo() > 0 ? Standing::violated : Standing::open;
 }
 
 }  // namespace

@@ -47,19 +47,9 @@ void add_term(Polynomial& f, double coefficient, Factors factors) {
 
 }  // namespace
 
-TubeProver::TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks,
-                       const KeptDistances& distances)
-    : bare_(without_inequalities(system)), compiled_(system), domain_(system), distances_(system, distances) {
-  CORANK_CHECK(matrices.size() == ranks.size());
-  for (std::size_t k = 0; k < matrices.size(); ++k) {
-    bounds_.emplace_back(system, matrices[k]);
-    most_.push_back(matrices[k].columns - ranks[k]);
-  }
-}
-
-System TubeProver::extended(const TubeNode& a, const TubeNode& b) const {
-  System result = bare_;
-  const int n = bare_.size();
+System piece_system(System system, const TubeNode& a, const TubeNode& b) {
+  System result = without_inequalities(std::move(system));
+  const int n = result.size();
   result.variables.emplace_back("t", VariableKind::auxiliary, ExactNumber(0), ExactNumber(1));
   const auto at = [](int v) { return Factors{{v}}; };
   for (std::size_t i = 0; i < a.values.size(); ++i) {
@@ -80,9 +70,19 @@ System TubeProver::extended(const TubeNode& a, const TubeNode& b) const {
   return result;
 }
 
+TubeProver::TubeProver(const System& system, const std::vector<PolynomialMatrix>& matrices, std::vector<int> ranks,
+                       const KeptDistances& distances)
+    : bare_(without_inequalities(system)), compiled_(system), domain_(system), distances_(system, distances) {
+  CORANK_CHECK(matrices.size() == ranks.size());
+  for (std::size_t k = 0; k < matrices.size(); ++k) {
+    bounds_.emplace_back(system, matrices[k]);
+    most_.push_back(matrices[k].columns - ranks[k]);
+  }
+}
+
 Sheet TubeProver::prove(const TubeNode& a, const TubeNode& b, std::vector<Interval> x) {
   CORANK_CHECK(UpwardRounding::active());
-  const CompiledSystem compiled(extended(a, b));
+  const CompiledSystem compiled(piece_system(bare_, a, b));
   if (compiled.equations() != compiled_.unknowns()) return {};
   compiled_.free_parameters(x);
   const std::vector<int> dependent = all_but(compiled_.parameters(), bare_.size());
@@ -131,6 +131,11 @@ bool TubeProver::is_free(const Box& piece, double r, const std::vector<double>& 
   Box box = piece;
   for (std::size_t j = 0; j < box.size(); ++j) box[j] += Interval(-r, r) * Interval(sizes[j]);
   compiled_.free_parameters(box);  // of robots outside their tolerances nothing is said
+  return is_free(box);
+}
+
+bool TubeProver::is_free(const Box& box) const {
+  CORANK_CHECK(UpwardRounding::active());
   if (domain_.locate(compiled_, box) != Location::inside) return false;
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     if (bounds_[k].at_most(box, kHalvings) > most_[k]) return false;

@@ -14,6 +14,9 @@
 
 namespace corank::certify {
 
+/// F and (1 − t)(T·x − c) + t (T'·x − c'), t the last variable, in [0, 1]; without inequalities.
+System piece_system(System system, const TubeNode& a, const TubeNode& b);
+
 /// For a system F of m equations in n variables, and matrices that are to keep their full rank.
 ///
 /// Theorem: let F(x) = 0, (1 − t)(T·x − c) + t (T'·x − c') = 0 have for every t ∈ [0, 1] exactly one solution x(t) in the
@@ -37,13 +40,13 @@ class TubeProver {
   /// Over the whole box with r times the variable's size added to each side: every matrix has its rank, the domain and the
   /// inequalities hold, bodies keep their distances. `sizes`: Tube::sizes.
   bool is_free(const Box& piece, double r, const std::vector<double>& sizes) const;
+  /// The same over a box as it is, of robots within its own sides.
+  bool is_free(const Box& box) const;
   /// A connected piece of the solution set that holds a solution in each of the boxes, and lies in `within`: the graph over
   /// a box of n − m variables, for every value of which it has exactly one solution.
   bool joins(const Box& a, const Box& b, const Box& within);
 
  private:
-  // F and (1 − t)(T·x − c) + t (T'·x − c'), t the last variable, in [0, 1].
-  System extended(const TubeNode& a, const TubeNode& b) const;
   Sheet prove(const TubeNode& a, const TubeNode& b, std::vector<Interval> x);
 
   System bare_;  // without inequalities and further rows

@@ -188,15 +188,18 @@ class VelocityCheck {
       sum.add_multiple(weight, along);
       difference.add_product(weight, Enclosure(-noise, (beyond + Enclosure(noise)).hi()));
     }
-    const Enclosure bound(test_.bound), last = v.back().range(offsets_);
-    const Enclosure sign(v.back().constant.mid() < 0 ? -1.0 : 1.0);
-    Form gap = sum;
-    gap.add_multiple(-(bound * sign), v.back());
-    if ((gap.range(offsets_) + difference).is_negative()) return Standing::satisfied;
-    const bool signed_end = (sign * last).is_nonnegative();
-    const Enclosure least =
-        (signed_end ? gap.range(offsets_) : sum.range(offsets_) - bound * Enclosure(last.mag())) + difference;
-    return least.is_positive() ? Standing::violated : Standing::open;
+    const Enclosure bound(test_.bound);
+    Form most = sum, least = sum;  // less bound·Σ |V_end|
+    for (std::size_t j = v.size() - test_.ends; j < v.size(); ++j) {
+      const Enclosure end = v[j].range(offsets_), sign(v[j].constant.mid() < 0 ? -1.0 : 1.0);
+      most.add_multiple(-(bound * sign), v[j]);
+      if ((sign * end).is_nonnegative())
+        least.add_multiple(-(bound * sign), v[j]);
+      else
+        least.constant += -(bound * Enclosure(end.mag()));
+    }
+    if ((most.range(offsets_) + difference).is_negative()) return Standing::satisfied;
+    return (least.range(offsets_) + difference).is_positive() ? Standing::violated : Standing::open;
   }
 
   const VelocityTest& test_;

@@ -26,7 +26,8 @@ struct MatrixEntry {
 
 /// A condition on ker A, A with `columns` columns. Either of
 ///   form     Σ_j form_j m_j² > 0 for every m ∈ ker A but 0;
-///   groups   ker A is a line, and Σ_g weight_g ‖(m_j)_{j ∈ g}‖ < bound · |m_last| for its m ≠ 0, m_last the last component.
+///   groups   ker A is a line, and Σ_g weight_g ‖(m_j)_{j ∈ g}‖ < bound · Σ |m_e| for its m ≠ 0, m_e the last components,
+///            `ends` of them.
 struct VelocityTest {
   struct Group {
     std::vector<int> columns;
@@ -38,6 +39,7 @@ struct VelocityTest {
   std::vector<ExactNumber> form;    ///< one for each column; empty: groups
   std::vector<Group> groups;
   ExactNumber bound;
+  int ends = 1;
 
   int rows() const { return columns > 0 ? static_cast<int>(matrix.size()) / columns : 0; }
 };

@@ -10,6 +10,7 @@
 #include "corank/analyze/clearance/tolerance_factor.h"
 #include "corank/analyze/maps/area_by_boundary.h"
 #include "corank/analyze/paths/path.h"
+#include "corank/analyze/paths/path_factor.h"
 #include "corank/analyze/postures/cuspidal.h"
 #include "corank/analyze/postures/postures.h"
 #include "corank/analyze/topology/topology.h"
@@ -168,6 +169,16 @@ py::tuple aspects_factor(const Question& question, double precision, int threads
               }));
 }
 
+py::tuple path_factor(const Question& question, const result::PathFile& path, double precision, double time_limit,
+                      const py::object& progress) {
+  refuse_plain_system(question, "paths");
+  return said(progress, within(time_limit, [question, path, precision](solve::Control& control) {
+                const analyze::PathFactor f =
+                    analyze::path_factor(question, path, {.precision = precision, .progress = {}}, control);
+                return std::tuple(to_json(question, f), to_table(question, f));
+              }));
+}
+
 // Of the quaternion's four numbers as texts, or of a product of turns; none where both are empty.
 py::tuple postures(const Question& question, const Values& at, const std::optional<std::string>& turns,
                    const std::optional<std::array<std::string, 4>>& quaternion, const std::string& orientation_of,
@@ -265,6 +276,7 @@ void bind_analyses(py::module_& module) {
   module.def("clearance_map", &clearance_map);
   module.def("tolerance_factor", &tolerance_factor);
   module.def("aspects_factor", &aspects_factor);
+  module.def("path_factor", &path_factor);
   module.def("postures", &postures);
   module.def("cuspidal", &cuspidal);
   module.def("declared_ranges", &declared_ranges);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -40,6 +41,7 @@ struct PlantedRequirement {
       for (int j = 0; j < first; ++j) test.groups[0].columns.push_back(j);
       if (first < rows) test.groups.push_back({{first}, decimal(number(0.1, 2))});
       test.bound = decimal(std::pow(10.0, number(-1, 1)));
+      test.ends = 1 + static_cast<int>(random_() % std::min(3, test.columns - 1));
     } else {
       for (int j = 0; j < test.columns; ++j)
         test.form.push_back(j < kernel ? decimal(std::pow(10.0, number(-1, 2))) : ExactNumber(j % 2 == 0 ? -1 : 0));
@@ -75,7 +77,7 @@ struct PlantedRequirement {
     const Eigen::VectorXd v = kernel.col(0).normalized();
     double sum = 0;
     for (const VelocityTest::Group& g : test.groups) sum += g.weight.enclose().mid() * Eigen::VectorXd(v(g.columns)).norm();
-    return test.bound.enclose().mid() * std::fabs(v(v.size() - 1)) - sum;
+    return test.bound.enclose().mid() * v.tail(test.ends).lpNorm<1>() - sum;
   }
 
  private:

@@ -209,33 +209,18 @@ std::string to_table(const ToleranceFactor& f) {
   if (f.upper == 0) {
     text += "the robot as drawn does not keep it; its nearest configuration of the set, proven to exist:\n";
   } else {
-    text += fmt::format("factor of the tolerances in [{}, {}]\n", rounded(f.lower, false),
-                        f.upper ? rounded(*f.upper, true) : "unknown");
-    text += "  it is proven that every robot keeps it within\n";
-    for (const CoordinateValue& v : f.tolerances)
-      text += fmt::format("    {} in [{:.9g}, {:.9g}]\n", v.name, v.value.lo(), v.value.hi());
-    if (!f.robot.empty()) text += "  within the upper bound there is a robot that does not keep it, proven:\n";
-    text += value_lines(f.robot);
+    text += factor_lines(f, "that does not keep it");
     if (!f.robot.empty()) text += "  its nearest configuration of the set:\n";
   }
-  text += value_lines(f.nearest);
-  if (!f.reason.empty()) text += fmt::format("  no further: {}\n", f.reason);
-  return text + fmt::format("{} steps, {} boxes processed, {:.3f} s\n", f.steps, f.processed, f.seconds);
+  return text + value_lines(f.nearest) + last_lines(f, fmt::format("{} boxes processed, ", f.processed));
 }
 
 std::string to_json(const ToleranceFactor& f) {
   Json json = json_about(f.ball);
   json["keep"] = {{"clearance", f.radius}};
-  json["factor"] = {{"lo", f.lower}, {"hi", or_null(f.upper)}};
-  json["tolerances"] = ends_of(f.tolerances);
-  json["robot"] = ends_of(f.robot);
+  add_bounds(f, json);
   json["nearest"] = f.nearest.empty() ? Json() : ends_of(f.nearest);
-  json["complete"] = f.complete;
-  json["reason"] = or_null(f.reason);
-  json["precision"] = f.precision;
-  json["steps"] = f.steps;
   json["processed"] = f.processed;
-  json["seconds"] = f.seconds;
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "corank/analyze/clearance/clearance.h"
+#include "corank/analyze/clearance/factor_search.h"
 
 namespace corank::analyze {
 
@@ -22,6 +22,18 @@ inline Json ends_of(const std::vector<CoordinateValue>& values) {
   Json json = Json::object();
   for (const CoordinateValue& v : values) json[v.name] = ends_of(v.value);
   return json;
+}
+
+/// What every factor of tolerances has.
+inline void add_bounds(const FactorBounds& f, Json& json) {
+  json["factor"] = {{"lo", f.lower}, {"hi", or_null(f.upper)}};
+  json["tolerances"] = ends_of(f.tolerances);
+  json["robot"] = ends_of(f.robot);
+  json["complete"] = f.complete();
+  json["reason"] = or_null(f.reason);
+  json["precision"] = f.precision;
+  json["steps"] = f.steps;
+  json["seconds"] = f.seconds;
 }
 
 /// A file with the question's model.

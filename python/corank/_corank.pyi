@@ -249,6 +249,9 @@ def tolerance_factor(
 def aspects_factor(
     question: Question, precision: float, threads: int, time_limit: float, progress: Any
 ) -> Tuple[str, str, Optional[BaseException]]: ...
+def path_factor(
+    question: Question, path: PathFile, precision: float, time_limit: float, progress: Any
+) -> Tuple[str, str, Optional[BaseException]]: ...
 def best_center(
     question: Question, ball: Ball, region: _Ranges, precision: float, options: Options, progress: Any
 ) -> Tuple[str, str, Optional[BaseException]]: ...

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import pandas
 
     from .mechanism import Mechanism
+    from .pathing import Path
 
 
 class Bounds(NamedTuple):
@@ -176,16 +177,15 @@ class Clearance(Analysis):
         self.free, self.nearest_result = free, nearest
 
 
-class ToleranceFactor(Analysis):
-    """By which factor all tolerances may grow, while every robot within them keeps a clearance.
+class Factor(Analysis):
+    """By which factor all tolerances may grow, while every robot within them keeps something.
 
     Attributes:
-        lower: every robot within `lower` times the tolerances keeps the clearance, proven.
+        lower: every robot within `lower` times the tolerances keeps it, proven.
         upper: some robot within `upper` times the tolerances does not, proven; 0: the robot as drawn does not; None: no such
             robot is proven to exist.
         tolerances: (lower, upper) of each constant at the factor `lower`.
         robot: the constants of the robot that proves `upper`, intervals by name.
-        nearest: its singularity nearer than the clearance, intervals by coordinate; None if there is none.
         reason: why the bounds are not closer, or why there is no upper one; None if they are as close as asked for.
     """
 
@@ -195,33 +195,47 @@ class ToleranceFactor(Analysis):
         self.upper: Optional[float] = self.data["factor"]["hi"]
         self.tolerances = _values(self.data["tolerances"])
         self.robot = _values(self.data["robot"])
-        self.nearest = None if self.data["nearest"] is None else _values(self.data["nearest"])
         self.reason: Optional[str] = self.data["reason"]
 
 
-class AspectsFactor(Analysis):
-    """By which factor all tolerances may grow, while every robot within them keeps its numbers of aspects, assembly modes and
-    working modes.
+class ToleranceFactor(Factor):
+    """A Factor of tolerances within which every robot keeps a clearance.
 
     Attributes:
-        lower: every robot within `lower` times the tolerances has them, proven.
-        upper: some robot within `upper` times the tolerances has others, proven; None: no such robot is known.
-        keep: the numbers, by "aspects", "assembly_modes", "working_modes".
-        tolerances: (lower, upper) of each constant at the factor `lower`.
-        robot: the constants of the robot that proves `upper`, intervals by name.
-        other: its numbers; None if no such robot is known.
-        reason: why the bounds are not closer, or why there is no upper one; None if they are as close as asked for.
+        nearest: the singularity of `robot` nearer than the clearance, intervals by coordinate; None if there is none.
     """
 
     def __init__(self, text: str, table: str) -> None:
         super().__init__(text, table)
-        self.lower: float = self.data["factor"]["lo"]
-        self.upper: Optional[float] = self.data["factor"]["hi"]
+        self.nearest = None if self.data["nearest"] is None else _values(self.data["nearest"])
+
+
+class AspectsFactor(Factor):
+    """A Factor of tolerances within which every robot keeps its numbers of aspects, assembly modes and working modes.
+
+    Attributes:
+        keep: the numbers, by "aspects", "assembly_modes", "working_modes".
+        other: the numbers of `robot`; None if no such robot is known.
+    """
+
+    def __init__(self, text: str, table: str) -> None:
+        super().__init__(text, table)
         self.keep: Dict[str, int] = self.data["keep"]
-        self.tolerances = _values(self.data["tolerances"])
-        self.robot = _values(self.data["robot"])
         self.other: Optional[Dict[str, int]] = self.data["other"]
-        self.reason: Optional[str] = self.data["reason"]
+
+
+class PathFactor(Factor):
+    """A Factor of tolerances within which every robot has a path of its own through the sections of a path.
+
+    Attributes:
+        place: a configuration on the path of `robot` at which it fails, intervals by coordinate; None without an upper bound.
+        what: how it fails there, a sentence; None without an upper bound.
+    """
+
+    def __init__(self, text: str, table: str) -> None:
+        super().__init__(text, table)
+        self.place = None if self.data["place"] is None else _values(self.data["place"])
+        self.what: Optional[str] = self.data["what"]
 
 
 class BestCenter(Clearance):
@@ -392,6 +406,21 @@ def aspects_factor(
     with Shown(progress) as show:
         text, table, raised = _corank.aspects_factor(ask(self._core), precision, threads, time_limit, show)
     return deliver(AspectsFactor(text, table), raised)
+
+
+def path_factor(
+    self: "Mechanism", path: "Path", *, precision: float = 0.01, time_limit: float = 0, progress: ProgressOption = None
+) -> PathFactor:
+    """Finds by which factor all tolerances may grow, as in tolerance_factor(), while every robot within them has a path of
+    its own through the sections of a path of this mechanism, as free of singularities.
+
+    Args:
+        precision: of the factor, relative.
+        time_limit: in seconds; 0: no limit.
+    """
+    with Shown(progress) as show:
+        text, table, raised = _corank.path_factor(ask(self._core), path._need(), precision, time_limit, show)
+    return deliver(PathFactor(text, table), raised)
 
 
 def best_center(self: "Mechanism", region: Mapping[str, RangeLike], **others: Any) -> BestCenter:

@@ -336,6 +336,7 @@ class Mechanism:
     clearance = analyses.clearance
     tolerance_factor = analyses.tolerance_factor
     aspects_factor = analyses.aspects_factor
+    path_factor = analyses.path_factor
     postures = posturing.postures
     cuspidal = posturing.cuspidal
     best_center = analyses.best_center

@@ -23,7 +23,7 @@ bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && sam
 void Mechanism::require(const std::string& text, const SourceLocation& where) {
   parse_requirement(text, where);
   // It is to be one line of a model, with a semicolon behind it.
-  if (text.find_first_of(";[]%") != text.npos || text.find("//") != text.npos || text.find("/*") != text.npos)
+  if (text.find_first_of(";%") != text.npos || text.find("//") != text.npos || text.find("/*") != text.npos)
     throw ModelError(where, "the requirement " + in_quotes(text) + " has a comment in it", "one without");
   std::string line = text;
   std::ranges::replace_if(

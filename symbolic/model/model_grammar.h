@@ -252,7 +252,9 @@ struct drawing_section
 // [REQUIREMENTS]  a text up to its semicolon (requirement_text.cc has its grammar)
 struct requirements_header : header<exactly<"REQUIREMENTS">> {};
 struct requirement_line_end : one<';'> {};
-struct requirement_line : plus<not_one<';', '[', ']'>> {};
+struct requirement_end_of_range : plus<not_one<';', ',', '[', ']'>> {};
+struct requirement_range : seq<one<'['>, requirement_end_of_range, one<','>, requirement_end_of_range, one<']'>> {};
+struct requirement_line : plus<sor<not_one<';', '[', ']'>, requirement_range>> {};
 struct requirements_section
     : seq<requirements_header, star<gap, not_at<section_or_end>, seq<must<requirement_line>, must<requirement_line_end>>>> {
 };

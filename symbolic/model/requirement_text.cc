@@ -45,11 +45,21 @@ struct amplification
 
 struct under_word : word<exactly<"under">> {};
 struct load_word : sor<word<exactly<"force">>, word<exactly<"moment">>> {};
+struct load_is : one<'='> {};
+struct load_sign : sor<load_is, at_most> {};
 struct load_end : success {};
-struct load : seq<must<load_word>, gap, rate_names, gap, must<at_most>, gap, quantity, load_end> {};
+struct load : seq<must<load_word>, gap, rate_names, gap, must<load_sign>, gap, quantity, load_end> {};
+struct loads : seq<must<under_word>, gap, load, star<gap, one<','>, gap, load>> {};
 struct effort_word : sor<word<exactly<"torque">>, word<exactly<"force">>> {};
-struct effort : seq<effort_word, gap, rate_names, gap, must<at_most>, gap, quantity, gap, must<under_word>, gap, load,
-                    star<gap, one<','>, gap, load>> {};
+struct effort : seq<effort_word, gap, rate_names, gap, must<at_most>, gap, quantity, gap, loads> {};
+
+struct tension_word : word<exactly<"tension">> {};
+struct tension_in : word<exactly<"in">> {};
+struct tension_open : one<'['> {};
+struct tension_comma : one<','> {};
+struct tension_close : one<']'> {};
+struct tension : seq<tension_word, gap, rate_names, gap, must<tension_in>, gap, must<tension_open>, gap, quantity, gap,
+                     must<tension_comma>, gap, quantity, gap, must<tension_close>, gap, loads> {};
 
 struct error_word : word<exactly<"error">> {};
 struct input_name : identifier {};
@@ -85,8 +95,8 @@ template <typename Word>
 struct begins : at<Word, gap, one<'('>> {};
 struct requirement : seq<gap,
                          sor<seq<begins<amplification_word>, amplification>, seq<begins<effort_word>, effort>,
-                             seq<begins<error_word>, error_limit>, seq<begins<distance_word>, distance>,
-                             seq<begins<pressure_angle_word>, pressure_angle>,
+                             seq<begins<tension_word>, tension>, seq<begins<error_word>, error_limit>,
+                             seq<begins<distance_word>, distance>, seq<begins<pressure_angle_word>, pressure_angle>,
                              seq<begins<transmission_angle_word>, transmission_angle>, comparison>,
                          gap, must<requirement_end>> {};
 
@@ -101,7 +111,7 @@ struct RequirementBuilder : ModelBuilder {
   std::string unit, item;  // read last
   std::vector<Quantity> quantities;
   std::vector<std::string> names;  // of the list read last
-  bool moment = false;
+  bool moment = false, constant = false;
 
   Quantity take() {
     Quantity last = quantities.back();
@@ -151,6 +161,9 @@ CORANK_ACTION(under_word, {
       throw ModelError(place(in, b), "a torque or force is that of one motor, found " + joined(b.names), "one input's name");
     effort->motor = b.names[0];
     effort->most = b.take();
+  } else if (auto* tension = std::get_if<TensionLimit>(&b.out.limit)) {
+    tension->most = b.take();
+    tension->least = b.take();
   } else {
     auto& error = std::get<ErrorLimit>(b.out.limit);
     error.names = b.names;
@@ -158,7 +171,15 @@ CORANK_ACTION(under_word, {
   }
 })
 CORANK_ACTION(load_word, { b.moment = in.string_view() == "moment"; })
-CORANK_ACTION0(load_end, { std::get<EffortLimit>(b.out.limit).loads.push_back({b.moment, b.names, b.take()}); })
+CORANK_ACTION(load_sign, { b.constant = in.string_view() == "="; })
+CORANK_ACTION(load_end, {
+  if (b.constant && b.names.size() != 1)
+    throw ModelError(place(in, b), "a load with one value works on one rate, found " + joined(b.names), "one for each");
+  auto* effort = std::get_if<EffortLimit>(&b.out.limit);
+  (effort ? effort->loads : std::get<TensionLimit>(b.out.limit).loads).push_back({b.moment, b.names, b.take(), b.constant});
+})
+CORANK_ACTION0(tension_word, { b.out.limit = TensionLimit(); })
+CORANK_ACTION0(tension_open, { std::get<TensionLimit>(b.out.limit).cables = b.names; })
 CORANK_ACTION(input_name, { b.item = in.string(); })
 CORANK_ACTION0(input_error, { std::get<ErrorLimit>(b.out.limit).inputs.push_back({b.item, b.take()}); })
 CORANK_ACTION0(distance_word, { b.out.limit = DistanceLimit(); })
@@ -204,6 +225,11 @@ CORANK_FAULT(metric_name, "the name of an input or an output")
 CORANK_FAULT(quantity_colon, "':' and a number after the name")
 CORANK_FAULT(under_word, "a unit, or under and what the limit holds under")
 CORANK_FAULT(load_word, "force or moment")
+CORANK_FAULT(load_sign, "'<=' or '=' and a number")
+CORANK_FAULT(tension_in, "in and a range such as [5 N, 200 N]")
+CORANK_FAULT(tension_open, "'[' and two tensions")
+CORANK_FAULT(tension_comma, "a unit, or ',' and the larger tension")
+CORANK_FAULT(tension_close, "a unit, or ']'")
 CORANK_FAULT(input_name, "inputs, or the name of one")
 CORANK_FAULT(comparison_sign, "an operator, '<=' or '>='")
 CORANK_FAULT(requirement_end, "the end of the requirement")

@@ -2,6 +2,7 @@
 //   amplification(outputs) <= 2
 //   amplification(inputs) <= 3 metric x: 1 mm, phi: 1 deg
 //   torque(theta2) <= 3 N m under force(x, y) <= 50 N, moment(phi) <= 2 N m
+//   tension(d1, d2, d3) in [5 N, 200 N] under force(y) = -98 N, force(x, y) <= 20 N
 //   error(x, y) <= 0.1 mm under inputs <= 0.01 deg
 //   distance(A B radius 3 mm, rod) >= 5 mm
 //   pressure_angle(A B, P Q) <= 45 deg
@@ -43,6 +44,7 @@ struct Load {
   bool moment = false;             ///< else a force
   std::vector<std::string> names;  ///< of the rates that it works on: any vector of that length at most
   Quantity most;
+  bool constant = false;  ///< of one rate, always that
 };
 
 /// The largest torque or force of one motor under any of the loads, each at its worst.
@@ -50,6 +52,13 @@ struct EffortLimit {
   bool torque = true;
   std::string motor;
   Quantity most;
+  std::vector<Load> loads;
+};
+
+/// What each cable pulls with: under any of the loads together, they can be chosen between these.
+struct TensionLimit {
+  std::vector<std::string> cables;  ///< all inputs
+  Quantity least, most;
   std::vector<Load> loads;
 };
 
@@ -80,7 +89,7 @@ struct LineAngleLimit {
 };
 
 struct RequirementText {
-  std::variant<AmplificationLimit, EffortLimit, ErrorLimit, DistanceLimit, LineAngleLimit, Relation> limit;
+  std::variant<AmplificationLimit, EffortLimit, TensionLimit, ErrorLimit, DistanceLimit, LineAngleLimit, Relation> limit;
 };
 
 /// `begin`: where the text does. Throws ModelError, with the place, where the text is no requirement.

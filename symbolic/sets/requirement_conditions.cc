@@ -15,7 +15,8 @@
 namespace corank::symbolic {
 namespace {
 
-constexpr std::size_t kMostInputs = 8;  // of an error: half as many corners as 2 to that
+constexpr std::size_t kMostInputs = 8;    // of an error: half as many corners as 2 to that
+constexpr std::size_t kMostLocked = 150;  // choices of cables that are locked
 
 }  // namespace
 
@@ -69,29 +70,7 @@ class RequirementTranslator::Translator {
     if (velocity().roles[found] == Role::input) refuse(in_quotes(name) + " is an input", "coordinates that motors move");
     return found;
   }
-  // An angle that counts as a length, where a ball is about its values (Mechanism::unroll).
-  bool is_in_sines_alone(const std::string& name) const {
-    bool some = false;
-    const auto outside = [&](const auto& self, const Expression& e, bool inside) -> bool {
-      if (e.kind() == Expression::Kind::symbol && e.name() == name) {
-        some = true;
-        return !inside;
-      }
-      const bool sine = e.kind() == Expression::Kind::function && (e.name() == "sin" || e.name() == "cos");
-      return std::ranges::any_of(e.operands(), [&](const Expression& x) { return self(self, x, inside || sine); });
-    };
-    for (const Constraint& c : mechanism_.equations())
-      if (outside(outside, c.relation.lhs, false) || outside(outside, c.relation.rhs, false)) return false;
-    return some;
-  }
-  Dimension dimension(std::size_t column) {
-    const std::string& name = velocity().columns[column];
-    const int rate = mechanism_.find_rate(name), coordinate = mechanism_.find_coordinate(name);
-    if (rate >= 0) return mechanism_.rates()[rate].kind == CoordinateKind::angle ? Dimension::angle : Dimension::length;
-    const Coordinate& c = mechanism_.coordinates()[coordinate];
-    if (c.direction) return Dimension::number;
-    return c.kind == CoordinateKind::angle || is_in_sines_alone(name) ? Dimension::angle : Dimension::length;
-  }
+  Dimension dimension(std::size_t column) { return dimension_of(mechanism_, velocity().columns[column]); }
 
   bool depends_on_parameter(const Expression& e) const {
     if (std::ranges::any_of(parameters_, [&](const std::string& name) { return e.mentions(name); })) return true;
@@ -187,7 +166,16 @@ class RequirementTranslator::Translator {
     const std::vector<int> place = without_inputs(columns);
     columns.push_back(whole(motor));
     VelocityCondition of_motor = on_a_line(columns);
-    for (const Load& load : limit.loads) {
+    of_motor.bound = positive(limit.most, limit.torque ? Dimension::moment : Dimension::force);
+    add_loads(limit.loads, place, {}, of_motor.bound, of_motor);
+    out.of_velocities.push_back(std::move(of_motor));
+  }
+
+  // The work of the loads: a group for each, and one for those of one value less the cables' mean, a column z = Σ c_j m_j /
+  // size, `size` one like the c_j.
+  void add_loads(const std::vector<Load>& loads, const std::vector<int>& place, std::vector<std::pair<int, Expression>> work,
+                 const Expression& size, VelocityCondition& result) {
+    for (const Load& load : loads) {
       VelocityCondition::Group group;
       for (const std::string& name : load.names) {
         const std::size_t c = driven_column(name);
@@ -195,11 +183,65 @@ class RequirementTranslator::Translator {
           refuse(in_quotes(name) + " is " + word(dimension(c)), load.moment ? "a moment on angles" : "a force on lengths");
         add_column(name, place[c], group);
       }
-      group.weight = checked(in_model_units(load.most, load.moment ? Dimension::moment : Dimension::force), 0);
-      of_motor.groups.push_back(std::move(group));
+      const Expression most = in_model_units(load.most, load.moment ? Dimension::moment : Dimension::force);
+      if (load.constant) {
+        work.emplace_back(group.columns[0], most);
+      } else {
+        group.weight = checked(most, 0);
+        result.groups.push_back(std::move(group));
+      }
     }
-    of_motor.bound = positive(limit.most, limit.torque ? Dimension::moment : Dimension::force);
-    out.of_velocities.push_back(std::move(of_motor));
+    if (work.empty()) return;
+    for (std::vector<Expression>& row : result.rows) row.insert(row.begin(), 0);
+    std::vector<Expression>& row = result.rows.emplace_back(result.kinds.size() + 1, 0);
+    result.kinds.insert(result.kinds.begin(), CoordinateKind::length);
+    row[0] = 1;
+    for (const auto& [column, factor] : work) row[column + 1] = row[column + 1] - factor / size;
+    for (VelocityCondition::Group& group : result.groups)
+      for (int& column : group.columns) ++column;
+    result.groups.push_back({{0}, size});
+  }
+
+  void add(const TensionLimit& limit, Conditions& out) {
+    const Expression least = checked(in_model_units(limit.least, Dimension::force), 0);
+    const Expression most = positive(limit.most, Dimension::force), two(2);
+    if (exact_value(mechanism_, most - least, limit.most.value.text()).sign().value_or(0) <= 0)
+      refuse("its range is empty", "the smaller tension first");
+    std::vector<std::size_t> cables;
+    for (const std::string& name : limit.cables) {
+      cables.push_back(column(name, Role::input));
+      if (dimension(cables.back()) != Dimension::length) refuse(in_quotes(name) + " is no length", "the lengths of cables");
+      if (std::ranges::count(cables, cables.back()) > 1) refuse(in_quotes(name) + " occurs twice", "each name once");
+    }
+    const auto& columns = velocity().columns;
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      if (velocity().roles[c] == Role::input && std::ranges::find(cables, c) == cables.end())
+        refuse("the input " + in_quotes(columns[c]) + " is none of the cables", "all inputs");
+    const std::size_t freedom = columns.size() - std::min(columns.size(), velocity().rows.size());
+    if (freedom == 0 || cables.size() < freedom)
+      refuse("there are " + counted(cables.size(), "cable") + " for " + counted(freedom, "degree") + " of freedom",
+             "as many or more");
+    // The cables that are not locked: freedom − 1 are.
+    std::vector<char> moves(cables.size(), 0);
+    std::fill(moves.begin() + static_cast<std::ptrdiff_t>(freedom) - 1, moves.end(), 1);
+    std::size_t count = 0;
+    do {
+      if (++count > kMostLocked) refuse("there are too many cables", "fewer: each choice of those that are locked counts");
+      std::vector<Column> all;
+      const std::vector<int> place = without_inputs(all);
+      std::vector<std::pair<int, Expression>> work;
+      for (std::size_t k = 0; k < cables.size(); ++k) {
+        if (moves[k] == 0) continue;
+        work.emplace_back(static_cast<int>(all.size()), -((least + most) / two));
+        all.push_back(whole(cables[k]));
+      }
+      VelocityCondition result = on_a_line(all);
+      result.ends = static_cast<int>(work.size());
+      result.of_tensions = true;
+      result.bound = (most - least) / two;
+      add_loads(limit.loads, place, std::move(work), most, result);
+      out.of_velocities.push_back(std::move(result));
+    } while (std::next_permutation(moves.begin(), moves.end()));
   }
 
   void add(const ErrorLimit& limit, Conditions& out) {
@@ -331,6 +373,10 @@ void refuse_distances(const RequirementLine& line, const Conditions& conditions)
 
 VelocityCondition as_form(const RequirementLine& line, VelocityCondition c) {
   if (!c.form.empty()) return c;
+  if (c.of_tensions)
+    throw ModelError(line.where,
+                     "the requirement " + in_quotes(line.text) + " is one of tensions, whose limit is no single form",
+                     "corank map, or other requirements");
   if (c.groups.size() != 1)
     throw ModelError(line.where, "the requirement " + in_quotes(line.text) + " has " + counted(c.groups.size(), "load"),
                      "one load, or corank map");

@@ -23,9 +23,11 @@ struct VelocityCondition {
   };
   std::vector<Group> groups;
   Expression bound;
+  int ends = 1;
+  bool of_tensions = false;
 };
 
-/// The same condition as a form on a line: of one load. Throws ModelError where there are several.
+/// The same condition as a form on a line: of one load. Throws ModelError where there are several, and for tensions.
 VelocityCondition as_form(const RequirementLine& line, VelocityCondition condition);
 
 /// A condition on a distance of hulls: that of DistanceTest.

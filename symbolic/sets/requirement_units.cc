@@ -27,7 +27,31 @@ const Unit* find(const std::array<Unit, n>& units, const std::string& name) {
   return found == units.end() ? nullptr : &*found;
 }
 
+// An angle that counts as a length, where a ball is about its values (Mechanism::unroll).
+bool is_in_sines_alone(const Mechanism& mechanism, const std::string& name) {
+  bool some = false;
+  const auto outside = [&](const auto& self, const Expression& e, bool inside) -> bool {
+    if (e.kind() == Expression::Kind::symbol && e.name() == name) {
+      some = true;
+      return !inside;
+    }
+    const bool sine = e.kind() == Expression::Kind::function && (e.name() == "sin" || e.name() == "cos");
+    return std::ranges::any_of(e.operands(), [&](const Expression& x) { return self(self, x, inside || sine); });
+  };
+  for (const Constraint& c : mechanism.equations())
+    if (outside(outside, c.relation.lhs, false) || outside(outside, c.relation.rhs, false)) return false;
+  return some;
+}
+
 }  // namespace
+
+Dimension dimension_of(const Mechanism& mechanism, const std::string& name) {
+  const int rate = mechanism.find_rate(name), coordinate = mechanism.find_coordinate(name);
+  if (rate >= 0) return mechanism.rates()[rate].kind == CoordinateKind::angle ? Dimension::angle : Dimension::length;
+  const Coordinate& c = mechanism.coordinates()[coordinate];
+  if (c.direction) return Dimension::number;
+  return c.kind == CoordinateKind::angle || is_in_sines_alone(mechanism, name) ? Dimension::angle : Dimension::length;
+}
 
 const char* word(Dimension dimension) {
   static constexpr std::array kWords{"a number", "a length", "an angle", "a force", "a moment"};

@@ -105,6 +105,7 @@ Requirements::Requirements(const Mechanism& mechanism, const std::vector<std::st
       for (const Expression& e : c.form) test.form.push_back(exact(e));
       for (const VelocityCondition::Group& g : c.groups) test.groups.push_back({g.columns, exact(g.weight)});
       if (c.form.empty()) test.bound = exact(c.bound);
+      test.ends = c.ends;
     }
     for (const DistanceCondition& c : conditions.of_distances) {
       DistanceTest& test = r.distances.emplace_back();

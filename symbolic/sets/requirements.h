@@ -3,6 +3,9 @@
 //   amplification(outputs) ≤ k            k² ‖m_inputs‖² − ‖m_outputs‖² > 0 on ker L, in the metric's units;
 //   torque(u) ≤ t under ‖f_g‖ ≤ F_g       with the other inputs locked, τ_u m_u + Σ_g f_g·m_g = 0: the largest |τ_u| is
 //                                         Σ_g F_g ‖m_g‖ / |m_u|, m the feasible velocity;
+//   a load with one value F on a rate     adds F times that rate to the work: its own component z = Σ F m_k, |z| beside Σ
+//   tension(d…) in [a, b]                 doc/theory.md: for each n − 1 of the cables locked, n the mobility,
+//                                         Σ_g F_g ‖m_g‖ + |Σ F m_k − (a + b)/2 Σ m_d| < (b − a)/2 Σ |m_d|
 //   error(x) ≤ e under |δ_i| ≤ d_i        to first order x moves by ‖m_x‖ / |λ|, where m_i = ±d_i λ: largest at a corner of
 //                                         the box of input errors, since a norm is convex.
 #pragma once

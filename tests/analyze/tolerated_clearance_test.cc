@@ -182,7 +182,7 @@ TEST(ToleranceFactor, IsWhereTheWorstRobotJustKeepsTheRadius) {
     solve::Control control;
     const ToleranceFactor f =
         tolerance_factor(robot("dextar.cuik", links(0.001)), kBall, {.radius = radius, .precision = 0.1}, {}, control);
-    ASSERT_TRUE(f.complete && f.upper) << f.reason;
+    ASSERT_TRUE(f.complete() && f.upper) << f.reason;
     EXPECT_LE(*f.upper, f.lower * 1.1 * (1 + 1e-12));
     EXPECT_EQ(f.robot.size(), 5u);
     EXPECT_GE(clearance_for_all(robot("dextar.cuik", links(0.001 * f.lower)), kBall).nearest.upper, radius);
@@ -200,7 +200,7 @@ TEST(ToleranceFactor, IsZeroWhereTheRobotAsDrawnFallsShort) {
   const ToleranceFactor none = tolerance_factor(question, kBall, {.radius = 0.16}, {}, control);
   EXPECT_EQ(none.lower, 0);
   EXPECT_EQ(none.upper, 0.0);
-  EXPECT_TRUE(none.complete && !none.nearest.empty());
+  EXPECT_TRUE(none.complete() && !none.nearest.empty());
   EXPECT_THROW(tolerance_factor(robot("dextar.cuik", {}), kBall, {.radius = 0.1}, {}, control), symbolic::ModelError)
       << "no tolerance";
   EXPECT_THROW(tolerance_factor(question, kBall, {.radius = 0}, {}, control), symbolic::ModelError);
@@ -224,7 +224,7 @@ TEST(ToleranceFactor, SaysWhatItKnowsWhereALimitEndsIt) {
   solve::Control control({.boxes = 40});
   const ToleranceFactor f =
       tolerance_factor(robot("dextar.cuik", links(0.001)), kBall, {.radius = 0.15, .precision = 1e-6}, {}, control);
-  EXPECT_FALSE(f.complete);
+  EXPECT_FALSE(f.complete());
   EXPECT_FALSE(f.reason.empty());
 }
 

@@ -193,6 +193,7 @@ TEST(BadCommandLines, ThatContradictThemselvesAreRefused) {
       {{"clearance", dextar, "--at", "", "--in", "J3x,J3y"}, 2, "--at"},
       {{"tolerance", dextar, "--keep", "clearance>=0.1", "--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y"}, 1, "has a tolerance"},
       {{"tolerance", dextar, "--keep", "clearance>=0.1", "--at", "J3x=0.5,J3y=1"}, 2, "--in"},
+      {{"tolerance", dextar, "--keep", "path /no/such.h5"}, 1, "/no/such.h5"},
       {{"postures", dextar}, 2, "--at"},
       {{"postures", dextar, "--at", "theta2"}, 2, "NAME=VALUE"},
       {{"postures", dextar, "--at", "theta2=1"}, 1, "leave 1 degree of freedom"},

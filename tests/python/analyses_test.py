@@ -89,6 +89,15 @@ def test_tolerances_may_grow_until_a_robot_falls_short(models):
     assert "factor of the tolerances" in str(f)
 
 
+def test_tolerances_may_grow_until_a_robot_cannot_follow_a_path(models):
+    drawn = corank.load(models / "dextar.cuik")
+    path = drawn.path({"J3x": 0.5, "J3y": 1}, {"J3x": 0.7, "J3y": -1}, start_mode=1, end_mode=2)
+    f = corank.load(models / "dextar.cuik", l="0.9±0.001", d="1.18±0.001").path_factor(path, precision=0.1)
+    assert 0 < f.lower <= f.upper <= 1.1 * f.lower and f.reason is None
+    assert f.tolerances["d"].hi == pytest.approx(1.18 + 0.001 * f.lower)
+    assert "singularity" in f.what and "J3x" in f.place and f.data["keep"] == {"path": "forward"}
+
+
 def test_an_arm_of_six_joints_has_all_its_postures_and_changes_them_without_a_singularity(tmp_path):
     file = tmp_path / "gofa.cuik"
     rows = ["0 90deg 0.265 q1", "0.444 0 0 q2", "0.11 -90deg 0 q3", "0 90deg 0.47 q4", "0.08 -90deg 0 q5", "0 0 0.101 q6"]

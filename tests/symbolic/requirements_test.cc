@@ -50,6 +50,15 @@ TEST(RequirementText, HasTheFormsOfItsKinds) {
   EXPECT_TRUE(effort.loads[1].moment);
   EXPECT_EQ(effort.loads[1].most.unit, "kN mm");
 
+  const auto tension = parsed<TensionLimit>("tension(d1, d2) in [5 N, 2/10 kN] under force(y) = -98 N, force(x, y)<=20");
+  EXPECT_THAT(tension.cables, ElementsAre("d1", "d2"));
+  EXPECT_EQ(tension.least.value.text() + tension.least.unit, "5N");
+  EXPECT_EQ(tension.most.unit, "kN");
+  ASSERT_EQ(tension.loads.size(), 2u);
+  EXPECT_TRUE(tension.loads[0].constant);
+  EXPECT_EQ(tension.loads[0].most.value.text(), "-98");
+  EXPECT_FALSE(tension.loads[1].constant);
+
   const auto error = parsed<ErrorLimit>("error(x, y) <= 0.1 mm under inputs ± 0.01 deg");
   EXPECT_THAT(error.names, ElementsAre("x", "y"));
   EXPECT_EQ(error.most.unit, "mm");
@@ -99,6 +108,13 @@ TEST(RequirementText, SaysWhereItsFaultIs) {
   EXPECT_THAT(fault_in("torque(a) <= 1 under weight(x) <= 1"), HasSubstr("expected force or moment"));
   EXPECT_THAT(fault_in("torque(a) <= 1 under force(x <= 1"), HasSubstr("expected ',' or ')'"));
   EXPECT_THAT(fault_in("torque() <= 1 under force(x) <= 1"), HasSubstr("expected the name of a coordinate"));
+  EXPECT_THAT(fault_in("tension(d) <= 1"), HasSubstr("expected in and a range"));
+  EXPECT_THAT(fault_in("tension(d) in 1"), HasSubstr("expected '['"));
+  EXPECT_THAT(fault_in("tension(d) in [1]"), HasSubstr("expected a unit, or ','"));
+  EXPECT_THAT(fault_in("tension(d) in [1, 2"), HasSubstr("expected a unit, or ']'"));
+  EXPECT_THAT(fault_in("tension(d) in [1, 2]"), HasSubstr("under"));
+  EXPECT_THAT(fault_in("tension(d) in [1, 2] under force(x, y) = 1"), HasSubstr("works on one rate"));
+  EXPECT_THAT(fault_in("tension(d) in [1, 2] under force(x) 1"), HasSubstr("expected '<=' or '='"));
   EXPECT_THAT(fault_in("error(x) <= 1 under inputs = 1"), HasSubstr("expected '<=' or '±'"));
   EXPECT_THAT(fault_in("error(x) <= 1 under <= 1"), HasSubstr("expected inputs"));
   EXPECT_THAT(fault_in("distance(A, B) <= 1"), HasSubstr("expected '>='"));
