@@ -371,12 +371,16 @@ void refuse_distances(const RequirementLine& line, const Conditions& conditions)
                      "corank map, or other requirements");
 }
 
-VelocityCondition as_form(const RequirementLine& line, VelocityCondition c) {
-  if (!c.form.empty()) return c;
-  if (c.of_tensions)
+void refuse_tensions(const RequirementLine& line, const VelocityCondition& condition) {
+  if (condition.of_tensions)
     throw ModelError(line.where,
                      "the requirement " + in_quotes(line.text) + " is one of tensions, whose limit is no single form",
                      "corank map, or other requirements");
+}
+
+VelocityCondition as_form(const RequirementLine& line, VelocityCondition c) {
+  refuse_tensions(line, c);
+  if (!c.form.empty()) return c;
   if (c.groups.size() != 1)
     throw ModelError(line.where, "the requirement " + in_quotes(line.text) + " has " + counted(c.groups.size(), "load"),
                      "one load, or corank map");

@@ -46,6 +46,9 @@ struct Conditions {
 /// Throws ModelError for a distance: its limit is no zero of determinants, for what is nearest to what changes.
 void refuse_distances(const RequirementLine& line, const Conditions& conditions);
 
+/// Throws ModelError for cables' tensions.
+void refuse_tensions(const RequirementLine& line, const VelocityCondition& condition);
+
 /// One requirement after the other, of one mechanism, whose velocity equation is derived once.
 class RequirementTranslator {
  public:

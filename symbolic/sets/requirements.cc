@@ -225,6 +225,7 @@ LimitCompanion at_limit(const Mechanism& mechanism, const RequirementPart& part)
     return {companion.take(), {}};
   }
   VelocityCondition& condition = conditions.of_velocities.at(part.condition);
+  refuse_tensions(line, condition);
   if (condition.groups.empty()) {
     add_block(line, condition, companion);
     companion.add_locked_rates(0);
