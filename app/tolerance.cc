@@ -140,7 +140,8 @@ void add_tolerance(CLI::App& program, Action& action) {
       "And how far, if it is to keep the number of its aspects?\n"
       "  corank tolerance models/dextar.cuik -D \"l2=0.9±0.001\" --keep aspects\n"
       "Or if it is to follow a path?\n"
-      "  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1 --to J3x=0.7,J3y=-1 --to-mode 2 -o path.h5\n"
+      "  corank path models/dextar.cuik --from J3x=0.5,J3y=1 --from-mode 1\\\n"
+      "      --to J3x=0.7,J3y=-1 --to-mode 2 -o path.h5\n"
       "  corank tolerance models/dextar.cuik -D \"l=0.9±0.001\" -D \"d=1.18±0.001\" --keep \"path path.h5\"");
   sub->callback([command, &action] { action = [command] { return find_factor(*command); }; });
 }
