@@ -64,6 +64,9 @@ class PathOfRobots {
   std::vector<std::vector<int>> corners() const;
   std::optional<Place> worst(const solve::Control& control);
 
+  // Of the segment's robots up to that share: the function that begins at the drawn one's configuration. Empty: not proven.
+  std::vector<SolutionFamily::Cell> from_drawn(Segment& segment, const Box& drawn, double share,
+                                               const solve::Control& control);
   std::optional<Failure> prove(const Place& place, const solve::Control& control);
   std::optional<Failure> prove_crossing(Segment& segment, double share, const solve::Control& control);
   std::optional<Failure> prove_fold(Segment& segment, double share, const solve::Control& control);

@@ -205,6 +205,20 @@ PathOfRobots::Failure PathOfRobots::failure_of(const Segment& segment, const Box
   return result;
 }
 
+std::vector<SolutionFamily::Cell> PathOfRobots::from_drawn(Segment& segment, const Box& drawn, double share,
+                                                           const solve::Control& control) {
+  Values near;
+  for (const Interval& side : drawn) near.push_back(side.mid());
+  near.push_back(0);
+  std::vector<SolutionFamily::Cell> cells;
+  int effort = kEffortOfSegment;
+  const auto anything = [](const Box&) { return true; };
+  if (!segment.family.cover(segment.at(Interval(0.0, share)), near, anything, cells, effort, control)) return {};
+  Box start = drawn;
+  start.emplace_back(0.0);
+  return holds(cells, start) ? cells : std::vector<SolutionFamily::Cell>{};
+}
+
 // The segment's robots have one continuous function of configurations, from the drawn one's on, that keeps nothing. Where
 // the robots of P follow, theirs is this function, since both have the drawn robot's. So where its configuration at the
 // share is none that a path may have, or a determinant has the other sign there and was 0 on the way, they do not.
@@ -213,18 +227,10 @@ std::optional<PathOfRobots::Failure> PathOfRobots::prove_crossing(Segment& segme
   const Place& place = segment.place;
   const std::optional<Box> drawn = family(place.piece).solution(free_sides(drawn_, Interval(place.t)), points_[place.piece]);
   if (!drawn || !holds(drawn_cells_[place.piece], *drawn)) return std::nullopt;
-  Values near;
-  for (const Interval& side : *drawn) near.push_back(side.mid());
-  near.push_back(0);
-  std::vector<SolutionFamily::Cell> cells;
-  int effort = kEffortOfSegment;
-  const auto anything = [](const Box&) { return true; };
-  if (!segment.family.cover(segment.at(Interval(0.0, share)), near, anything, cells, effort, control)) return std::nullopt;
-  Box start = *drawn;
-  start.emplace_back(0.0);
+  const std::vector<SolutionFamily::Cell> cells = from_drawn(segment, *drawn, share, control);
   const std::optional<Values> there = of_robot(place, share);
-  if (!there || !holds(cells, start)) return std::nullopt;
-  near = *there;
+  if (!there || cells.empty()) return std::nullopt;
+  Values near = *there;
   near.push_back(share);
   const std::optional<Box> end = segment.family.solution(segment.at(Interval(share)), near);
   if (!end || !holds(cells, *end)) return std::nullopt;
@@ -273,19 +279,12 @@ std::optional<PathOfRobots::Failure> PathOfRobots::prove_fold(Segment& segment, 
     const std::optional<Values> point = of_robot(place, before);
     const std::optional<Values> earlier = of_robot(place, before * (1 - less));
     if (!point || !earlier) continue;
-    Values near;
-    for (const Interval& side : *drawn) near.push_back(side.mid());
-    near.push_back(0);
-    std::vector<SolutionFamily::Cell> cells;
-    int effort = kEffortOfSegment;
-    const auto anything = [](const Box&) { return true; };
-    if (!segment.family.cover(segment.at(Interval(0.0, before)), near, anything, cells, effort, control)) continue;
-    Box start = *drawn;
-    start.emplace_back(0.0);
+    const std::vector<SolutionFamily::Cell> cells = from_drawn(segment, *drawn, before, control);
+    if (cells.empty()) continue;
     Values from = *point;
     from.push_back(before);
     const std::optional<Box> end = segment.family.solution(segment.at(Interval(before)), from);
-    if (!end || !holds(cells, start) || !holds(cells, *end)) continue;
+    if (!end || !holds(cells, *end)) continue;
     // The variable that moves most, and which way.
     int i = 0;
     double most = 0;

@@ -13,6 +13,7 @@
 #include "corank/result/values/claim_files.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model/model_file.h"
+#include "corank/tests/analyze/path_samples.h"
 #include "corank/tests/seeds.h"
 
 namespace corank::analyze {
@@ -54,29 +55,9 @@ double to_few_bits(double x) { return std::ldexp(std::round(std::ldexp(x, 12)), 
 // these signs of determinants; none: those at the start.
 bool follows(const PathSpace& space, const Tube& tube, Eigen::VectorXd& x, std::vector<int>& signs) {
   constexpr int kSteps = 40;
-  const auto n = static_cast<Eigen::Index>(space.size());
-  const auto d = static_cast<Eigen::Index>(tube.nodes.front().values.size());
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Eigen::VectorXd> sizes(space.sizes().data(), n);
   for (std::size_t k = 0; k + 1 < tube.nodes.size(); ++k) {
-    const TubeNode &a = tube.nodes[k], &b = tube.nodes[k + 1];
-    const Eigen::Map<const Rows> rows_a(a.rows.data(), d, n), rows_b(b.rows.data(), d, n);
-    const Eigen::Map<const Eigen::VectorXd> c_a(a.values.data(), d), c_b(b.values.data(), d);
     for (int s = 0; s <= kSteps; ++s) {
-      const double t = static_cast<double>(s) / kSteps;
-      const Eigen::MatrixXd rows = ((1 - t) * rows_a + t * rows_b) * sizes.asDiagonal();
-      const Eigen::VectorXd c = (1 - t) * c_a + t * c_b;
-      double change = 1;
-      for (int step = 0; step < 20 && change > 1e-12; ++step) {
-        Eigen::MatrixXd jacobian(n, n);
-        jacobian << space.jacobian(x), rows;
-        Eigen::VectorXd f(n);
-        f << space.residual(x), rows * x - c;
-        const Eigen::VectorXd move = jacobian.partialPivLu().solve(f);
-        x -= move;
-        change = move.lpNorm<Eigen::Infinity>();
-      }
-      if (!(change < 1e-9)) return false;
+      if (!move_to_section(space, tube.nodes[k], tube.nodes[k + 1], static_cast<double>(s) / kSteps, x)) return false;
       const PathSpace::State state = space.state(x);
       if (signs.empty()) signs = state.signs;
       if (state.signs != signs || !state.inside) return false;
