@@ -61,6 +61,7 @@ class WholeRun {
   void enter(const std::string& work);
   /// As solve::Control::ended(), for work that asks.
   bool ended() const { return control_.ended(); }
+  solve::Control& control() { return control_; }
 
  private:
   Interrupt interrupt_;

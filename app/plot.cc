@@ -9,6 +9,7 @@
 #include "corank/app/subcommands.h"
 #include "corank/report/pictures/picture.h"
 #include "corank/report/pictures/portrait.h"
+#include "corank/study/cut.h"
 
 namespace corank::app {
 namespace {
@@ -42,12 +43,21 @@ std::vector<int> shown_variables(const result::Result& result, const std::vector
   return {shown.begin(), shown.end()};
 }
 
-/// Of a result nothing is copied, and what the picture does not show is not read: it is kept in the list.
-report::PictureSource read_source(const PlotCommand& command, const std::string& path, std::list<result::Result>& results) {
+/// Of a result nothing is copied, and what the picture does not show is not read, unless sheets are to be cut: it is kept in
+/// the list.
+report::PictureSource read_source(const PlotCommand& command, const std::string& path, std::list<result::Result>& results,
+                                  WholeRun& run) {
+  run.enter("reading the boxes");
   if (std::filesystem::path(path).extension() != ".h5") return report::picture_source(result::read_sol(path), path);
   const result::Reading reading{.free = false,
                                 .sides = [&](const result::Result& r) { return shown_variables(r, command.picture.axes); }};
-  return report::picture_view(results.emplace_back(result::read_result(path, reading)), path);
+  result::Result& result = results.emplace_back(result::read_result(path, reading));
+  if (study::is_whole(result)) {
+    run.enter("cutting the sheets");
+    result = study::cut_for_picture(result::read_result(path), 0, run.control());
+    run.enter("drawing the picture");
+  }
+  return report::picture_view(result, path);
 }
 
 void check_format(const PlotCommand& command) {
@@ -74,10 +84,7 @@ ExitStatus plot(const CLI::App& sub, const PlotCommand& command) {
   WholeRun run(command.time_limit);
   std::list<result::Result> results;
   std::vector<report::PictureSource> sources;
-  for (const std::string& path : command.inputs) {
-    run.enter("reading the boxes");
-    sources.push_back(read_source(command, path, results));
-  }
+  for (const std::string& path : command.inputs) sources.push_back(read_source(command, path, results, run));
   run.enter("drawing the picture");
   report::Picture picture;
   try {

@@ -12,6 +12,7 @@
 #include "corank/result/files/verification.h"
 #include "corank/result/values/sentences.h"
 #include "corank/study/answer.h"
+#include "corank/study/cut.h"
 #include "corank/symbolic/sets/set_parts.h"
 #include "corank/symbolic/writing/printer.h"
 
@@ -78,7 +79,7 @@ std::optional<report::PageAspects> aspects_of(const ReportCommand& command, cons
 
 /// What a stranger's result says of its variables has to be so before a picture relies on it.
 report::SetView read_one(const std::string& path) {
-  result::Result result = result::read_result(path, {.free = false});
+  result::Result result = result::read_result(path);
   const symbolic::Mechanism mechanism = result::model_of(result);
   System system = result::system_of(mechanism, result);
   auto contradictions = result::contradictions(result, system, symbolic::to_cuik(system));
@@ -86,6 +87,8 @@ report::SetView read_one(const std::string& path) {
   if (!contradictions.empty())
     throw result::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
   result::describe_in_words(mechanism, system, result);
+  solve::Control control;
+  result = study::cut_for_picture(std::move(result), 0, control);
   return report::set_view(std::move(result), std::move(system), mechanism.has_own_velocity_equation());
 }
 

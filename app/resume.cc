@@ -22,8 +22,9 @@ constexpr std::array<std::string_view, 3> kFiles{"FILE", "--loops", "--param"};
 constexpr std::array<std::string_view, 10> kOfOneRun{"--max-boxes",    "--max-found", "--max-solutions", "--time-limit",
                                                      "--memory-limit", "--json",      "--checkpoint",    "--every",
                                                      "--resume",       "--refine"};
-constexpr std::array<std::string_view, 4> kMayChange{"--threads", "-o", "--digits", "--keep-sheets"};
-constexpr std::array<std::string_view, 3> kSigmas{"--sigma", "--sigma-length", "--sigma-angle"};
+constexpr std::array<std::string_view, 3> kMayChange{"--threads", "-o", "--digits"};
+constexpr std::array<std::string_view, 9> kOfRefine{
+    "--refine", "--sigma", "--sigma-length", "--sigma-angle", "--threads", "-o", "--time-limit", "--memory-limit", "--json"};
 
 bool is_among(const auto& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -39,17 +40,21 @@ std::optional<std::string> text_of(const std::string& path) {
 
 bool given(const CLI::App& sub, const std::string& name) { return sub.get_option(name)->count() > 0; }
 
-void check_given(const CLI::App& sub, const char* option, bool refine) {
-  for (const CLI::Option* o : sub.get_options()) {
-    const std::string name = o->get_name();
-    if (o->count() == 0 || is_among(kOfOneRun, name) || is_among(kMayChange, name)) continue;
-    if (refine && is_among(kSigmas, name)) continue;
-    throw UsageError(fmt::format("{}: its file holds the model and the question; expected no {}", option,
-                                 o->get_positional() ? "FILE beside it" : name));
-  }
+// `option`: whose file holds all but what may be given anew.
+void check_given(const CLI::App& sub, const char* option, const auto& may_be_given) {
+  for (const CLI::Option* o : sub.get_options())
+    if (o->count() > 0 && !may_be_given(o->get_name()))
+      throw UsageError(fmt::format("{}: its file holds the model and the question; expected no {}", option,
+                                   o->get_positional() ? "FILE beside it" : o->get_name()));
 }
 
 }  // namespace
+
+void check_refine(const CLI::App& sub) {
+  if (given(sub, "--resume")) throw UsageError("--refine: expected no --resume beside it");
+  check_given(sub, "--refine", [](const std::string& name) { return is_among(kOfRefine, name); });
+  if (!given(sub, "-o")) throw UsageError("--refine: expected -o NEW.h5 beside it");
+}
 
 result::Checkpoint checkpoint_of(const CLI::App& sub, const SolveCommand& command) {
   result::Checkpoint checkpoint;
@@ -75,13 +80,9 @@ result::Checkpoint checkpoint_of(const CLI::App& sub, const SolveCommand& comman
   return checkpoint;
 }
 
-Resumed::Resumed(const CLI::App& sub, const SolveCommand& now)
-    : path_(now.resume_path.empty() ? now.refine_path : now.resume_path) {
-  const bool refine = !now.refine_path.empty();
-  const char* const option = refine ? "--refine" : "--resume";
-  if (refine && !now.resume_path.empty()) throw UsageError("--refine: expected no --resume beside it");
-  check_given(sub, option, refine);
-  if (refine && now.result_path.empty()) throw UsageError("--refine: expected -o NEW.h5 beside it");
+Resumed::Resumed(const CLI::App& sub, const SolveCommand& now) : path_(now.resume_path) {
+  check_given(sub, "--resume",
+              [](const std::string& name) { return is_among(kOfOneRun, name) || is_among(kMayChange, name); });
   checkpoint = result::read_checkpoint(path_, solve::engine_version());
   restore();
   if (given(sub, "--threads")) command.limits.threads = now.limits.threads;
@@ -92,18 +93,11 @@ Resumed::Resumed(const CLI::App& sub, const SolveCommand& now)
   command.max_solutions = now.max_solutions;
   if (given(sub, "-o")) command.result_path = now.result_path;
   if (given(sub, "--digits")) command.digits = now.digits;
-  command.keep_sheets = command.keep_sheets || now.keep_sheets;
   command.json = now.json;
   command.every = now.every;
   command.resume_path = now.resume_path;
-  command.refine_path = now.refine_path;
   const bool from_result = fs::path(path_).extension() == ".h5";
   command.checkpoint_path = !now.checkpoint_path.empty() || from_result ? now.checkpoint_path : path_;
-  if (refine && (now.sigma || now.sigma_length || now.sigma_angle)) {
-    command.sigma = now.sigma;
-    command.sigma_length = now.sigma_length;
-    command.sigma_angle = now.sigma_angle;
-  }
 }
 
 Resumed::~Resumed() {

@@ -9,10 +9,12 @@
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/cuik/cuik_files.h"
+#include "corank/result/files/result_file.h"
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/summary.h"
 #include "corank/study/answer.h"
 #include "corank/study/cost.h"
+#include "corank/study/cut.h"
 #include "corank/study/run_journal.h"
 
 namespace corank::app {
@@ -23,6 +25,7 @@ solve::Options options_of(const SolveCommand& command) {
   options.sigma = command.sigma;
   options.sigma_length = command.sigma_length;
   options.sigma_angle = command.sigma_angle;
+  options.surfaces_whole = std::filesystem::path(command.result_path).extension() != ".sol";  // which others draw
   command.limits.apply(options);
   options.max_solutions = command.max_solutions.value_or(0);
   options.proof = command.proof;
@@ -125,12 +128,8 @@ ExitStatus say(const SolveCommand& command, const result::Result& result, const 
 
 study::RunJournal journal_of(const SolveCommand& command, result::Checkpoint from) {
   const bool to_result = std::filesystem::path(command.result_path).extension() == ".h5";
-  if (command.keep_sheets && !to_result) throw UsageError("--keep-sheets: expected -o RESULT.h5, the file that keeps them");
-  return study::RunJournal(std::move(from), {.path = command.checkpoint_path,
-                                             .every = command.every,
-                                             .keep_end = to_result,
-                                             .keep_sheets = command.keep_sheets,
-                                             .refine = !command.refine_path.empty()});
+  return study::RunJournal(std::move(from),
+                           {.path = command.checkpoint_path, .every = command.every, .keep_end = to_result});
 }
 
 // What nobody needs any more.
@@ -197,8 +196,27 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   return say(command, result, area, area_missed ? ending_words(control) : "", journal.left_out());
 }
 
+// Cuts the sheets of a former result.
+ExitStatus refine(const CLI::App& sub, const SolveCommand& command) {
+  check_refine(sub);
+  options_of(command).validate();
+  check_output(command.result_path);
+  command.json.check();
+  LimitedRun run(limits_of(options_of(command), nullptr));
+  solve::Control& control = run.control();
+  ProgressLine line;
+  line.follow(control);
+  solve::Options options = options_of(command);
+  options.surfaces_whole = false;
+  const result::Result& result = kept(study::cut(result::read_result(command.refine_path), options, control));
+  write_file(command.result_path, result, control);
+  line.clear();
+  return say(command, result, std::nullopt, "", 0);
+}
+
 ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {
-  if (!command.resume_path.empty() || !command.refine_path.empty()) {
+  if (!command.refine_path.empty()) return refine(sub, command);
+  if (!command.resume_path.empty()) {
     const Resumed resumed(sub, command);
     return solve_model(sub, resumed.command, &resumed.checkpoint);
   }
@@ -231,8 +249,8 @@ void add_solve(CLI::App& program, Action& action) {
       "  corank solve models/3rrr.cuik --set forward --sigma 0.2 --estimate    # predicts time and memory\n"
       "  corank solve models/3rrr.cuik --set forward --sigma 0.2 -o r.h5 --checkpoint r.kept --every 10m\n"
       "  corank solve --resume r.kept --threads 8    # after a limit, Ctrl-C, a crash or a power cut\n"
-      "  corank solve models/dextar.cuik --set cspace --sigma 0.1 --keep-sheets -o coarse.h5\n"
-      "  corank solve --refine coarse.h5 --sigma 0.01 -o fine.h5");
+      "  corank solve models/dextar.cuik --set cspace -o whole.h5\n"
+      "  corank solve --refine whole.h5 --sigma 0.01 -o fine.h5");
   sub->callback([command, sub, &action] { action = [command, sub] { return run_solve(*sub, *command); }; });
 }
 

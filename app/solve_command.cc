@@ -40,9 +40,9 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
   command.question.add_options(
       sub, "A model with inputs and outputs needs --set, other models must not have it. Which configurations");
   add_option(sub, "--sigma S|inf", command.sigma,
-             "Largest edge of a box, in lengths and in the sines and cosines of angles; default: a share of the size of\n"
-             "the set found, 1/200 for a curve, 1/60 for a surface, 1/20 for more dimensions; inf: do not cut the\n"
-             "sheets, the proven pieces of the set");
+             "Largest edge of a box, in lengths and in the sines and cosines of angles; inf: do not cut the sheets, the\n"
+             "proven pieces of the set; default: 1/200 of the size of a curve; inf for a surface and for more\n"
+             "dimensions, whose sheets pictures cut themselves");
   add_option(sub, "--sigma-length S|inf", command.sigma_length, "The same for lengths only, in the model's unit");
   add_option(sub, "--sigma-angle S|inf", command.sigma_angle, "The same for the sines and cosines of angles only");
   add_option(sub, "--tolerance REL", command.tolerance,
@@ -80,10 +80,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
              "Go on with a run from its checkpoint, or from the result that it wrote when a limit ended it. The file\n"
              "holds the model and the question; you may give limits, --threads, -o, --json and --digits anew");
   add_option(sub, "--refine RESULT.h5", command.refine_path,
-             "Cut the proven sheets of this result to another --sigma, without a search; the result must be one that\n"
-             "--keep-sheets made");
-  sub.add_flag("--keep-sheets", command.keep_sheets,
-               "Store the sheets, the proven pieces of the set before they are cut to boxes, in RESULT.h5");
+             "Cut the sheets of this result to --sigma, by default 1/60 of the size of a surface, 1/20 for more\n"
+             "dimensions, without a search. A proof of completeness (--proof) stays in RESULT.h5");
   sub.add_flag("--estimate", command.estimate,
                "Only predict boxes, time, memory and the size of the file, from a trial of a few seconds");
   command.json.add(sub, "the summary");

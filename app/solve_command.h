@@ -23,7 +23,7 @@ struct SolveCommand {
   JsonOption json;
   std::string checkpoint_path, resume_path, refine_path;
   double every = 60;  ///< seconds
-  bool keep_sheets = false, estimate = false;
+  bool estimate = false;
 };
 
 /// Adds the options, which write to `command`.
@@ -32,11 +32,14 @@ void add_solve_options(CLI::App& sub, SolveCommand& command);
 /// What a checkpoint says of a run besides its states: the options that were given, but for limits, and the files they name.
 result::Checkpoint checkpoint_of(const CLI::App& sub, const SolveCommand& command);
 
+/// Throws UsageError where an option does not go with --refine, or -o is not given.
+void check_refine(const CLI::App& sub);
+
 /// A run that goes on from a former one. The files that it was about are those of the checkpoint: where they are as they
 /// were, themselves, else copies that live as long as this object.
 class Resumed {
  public:
-  /// `sub` and `now`: the command line with --resume or --refine. Throws ResultFileError, UsageError.
+  /// `sub` and `now`: the command line with --resume. Throws ResultFileError, UsageError.
   Resumed(const CLI::App& sub, const SolveCommand& now);
   ~Resumed();
   Resumed(const Resumed&) = delete;

@@ -23,7 +23,7 @@ std::vector<report::SetView> views_of(const symbolic::Mechanism& mechanism, cons
   std::vector<report::SetView> views;
   for (const Result& r : results) {
     System system = result::system_of(mechanism, *r);
-    views.push_back(report::set_view(*r, std::move(system), mechanism.has_own_velocity_equation()));
+    views.push_back(report::set_view(r.drawn(), std::move(system), mechanism.has_own_velocity_equation()));
   }
   return views;
 }
@@ -93,7 +93,7 @@ std::string family_page(const Members& members, const std::string& constant, con
 
 std::vector<report::PictureSource> sources_of(const std::vector<Result>& results) {
   std::vector<report::PictureSource> sources;
-  for (const Result& r : results) sources.push_back(report::picture_view(*r, r->set));
+  for (const Result& r : results) sources.push_back(report::picture_view(r.drawn(), r->set));
   return sources;
 }
 

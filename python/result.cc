@@ -16,6 +16,7 @@
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/summary.h"
 #include "corank/result/values/tallies.h"
+#include "corank/study/cut.h"
 
 namespace corank::python {
 
@@ -119,8 +120,14 @@ Result read(const std::filesystem::path& path) {
 
 void save(const Result& r, const std::filesystem::path& path) {
   const py::gil_scoped_release unlocked;
-  if (path.extension() == ".sol") return result::write_text(path, result::to_sol(*r));
+  if (path.extension() == ".sol") return result::write_text(path, result::to_sol(r.drawn()));
   result::write_result(path, *r);
+}
+
+py::tuple cut(const Result& r, const solve::Options& options, const py::object& progress) {
+  return said(progress, within(options.time_limit, [shared = r.shared(), options](solve::Control& control) {
+                return std::tuple(Result(study::cut(*shared, options, control)));
+              }));
 }
 
 py::tuple verify(const Result& r, int threads, const py::object& progress) {
@@ -151,6 +158,15 @@ py::dict words(const Result& r) {
 }
 
 }  // namespace
+
+const result::Result& Result::drawn() const {
+  std::call_once(drawn_->once, [this] {
+    if (!study::is_whole(*value_)) return;
+    solve::Control control;
+    drawn_->value = study::cut_for_picture(*value_, 0, control);
+  });
+  return drawn_->value ? *drawn_->value : *value_;
+}
 
 BoxArrays::BoxArrays(const std::vector<CoverBox>& boxes, std::size_t n) : size(boxes.size()), variables(n) {
   bounds.reserve(2 * size * n);
@@ -219,6 +235,7 @@ void bind_result(py::module_& module) {
   type.def("json", [](const Result& r) { return result::to_json(*r); });
   type.def("words", &words);
   type.def("save", &save);
+  type.def("cut", &cut);
   type.def("verify", &verify);
   module.def("read_result", &read);
   // With the process its memory goes at once: to free ten million boxes one by one takes seconds.

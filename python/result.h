@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "corank/report/html/path_page.h"
@@ -32,6 +34,8 @@ class Result {
   const std::shared_ptr<const result::Result>& shared() const { return value_; }
   std::shared_ptr<const BoxArrays> boxes() const { return arrays(value_->cover.boxes, boxes_); }
   std::shared_ptr<const BoxArrays> points() const { return arrays(value_->cover.points, points_); }
+  /// study::cut_for_picture of it, made once; without the interpreter's lock. Copies share it, and it lives as long as they.
+  const result::Result& drawn() const;
 
  private:
   std::shared_ptr<const BoxArrays> arrays(const std::vector<CoverBox>& boxes,
@@ -40,7 +44,13 @@ class Result {
     return known;
   }
 
+  struct Drawn {
+    std::once_flag once;
+    std::optional<result::Result> value;  // nothing: the result itself
+  };
+
   std::shared_ptr<const result::Result> value_;
+  std::shared_ptr<Drawn> drawn_ = std::make_shared<Drawn>();
   // Under the interpreter's lock.
   mutable std::shared_ptr<const BoxArrays> boxes_, points_;
 };

@@ -62,6 +62,7 @@ void bind_options(py::module_& module) {
       .def_readwrite("sigma_length", &solve::Options::sigma_length)
       .def_readwrite("sigma_angle", &solve::Options::sigma_angle)
       .def_readwrite("coarser", &solve::Options::coarser)
+      .def_readwrite("surfaces_whole", &solve::Options::surfaces_whole)
       .def_readwrite("threads", &solve::Options::threads)
       .def_readwrite("max_boxes", &solve::Options::max_boxes)
       .def_readwrite("max_found", &solve::Options::max_found)

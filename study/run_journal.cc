@@ -8,18 +8,6 @@
 namespace corank::study {
 namespace {
 
-void check_refinable(const solve::Prepared& prepared, const std::optional<solve::SearchState>& state) {
-  if (!solve::refinable(prepared))
-    throw result::ResultFileError(
-        "the search itself depends on sigma here, since coefficients have a tolerance; expected a new search");
-  bool searched = state && !state->cutting && state->pass.boxes.empty();
-  if (searched)
-    for (const solve::Shard& shard : state->shards) searched = searched && shard.postponed.empty() && shard.left.empty();
-  if (!searched)
-    throw result::ResultFileError(
-        "the search was ended early; expected a complete one: go on with it first (corank solve --resume)");
-}
-
 // Of a state, nearly.
 std::uint64_t bytes_of(const solve::SearchView& state) {
   constexpr std::uint64_t kBeside = 100;
@@ -46,15 +34,12 @@ std::optional<solve::SearchState> RunJournal::next_search(const solve::Prepared&
   if (index > 0 && index > known_.finished.size()) known_.finished.push_back(std::exchange(last_, {}));
   const bool resumed = index < known_.finished.size();
   const std::string state = resumed ? known_.finished[index] : std::exchange(known_.state, {});
-  if (state.empty() && !plan_.refine) return std::nullopt;
-  std::optional<solve::SearchState> from;
+  if (state.empty()) return std::nullopt;
   try {
-    if (!state.empty()) from = solve::state_from(state, prepared);
+    return solve::state_from(state, prepared);
   } catch (const solve::ShardError& error) {
     throw result::ResultFileError(error.what());
   }
-  if (plan_.refine) check_refinable(prepared, from);
-  return from;
 }
 
 bool RunJournal::due() {
@@ -92,10 +77,9 @@ void RunJournal::keep(const solve::SearchView& state, solve::Moment moment) {
   }
   const std::uint64_t bytes = bytes_of(state);
   left_out_ = plan_.keep_end && ended_ && bytes >= plan_.most_in_result ? bytes : 0;
-  if ((plan_.keep_end && ended_ && left_out_ == 0) || (plan_.keep_sheets && moment == Moment::searched))
+  if (plan_.keep_end && ended_ && left_out_ == 0)
     search_ = result::checkpoint_bytes(solve::engine_version(), known_, state_writer, bytes);
-  if (searches_ < expected_ && moment == (plan_.keep_sheets ? Moment::searched : Moment::cut))
-    last_ = solve::to_bytes(state);
+  if (searches_ < expected_ && moment == Moment::cut) last_ = solve::to_bytes(state);
 }
 
 }  // namespace corank::study

@@ -21,8 +21,6 @@ class RunJournal : public solve::Journal {
     /// Bytes, of what a limit has left. It is made in memory and written within a part of a second: more is a matter for a
     /// checkpoint.
     std::uint64_t most_in_result = std::uint64_t{1} << 28;
-    bool keep_sheets = false;  ///< take_search() is to be all sheets, so that they can be cut to another σ
-    bool refine = false;       ///< the former run's sheets are to be cut to another σ
   };
   /// Of all seconds, checkpoints take no more than this share: where one takes long, the next comes later.
   static constexpr double kMostShare = 0.02;
@@ -32,8 +30,8 @@ class RunJournal : public solve::Journal {
 
   /// How many searches are to come, unless another number is said.
   void expect(std::size_t searches) { expected_ = searches; }
-  /// The next of the run's searches begins: the state from which it goes on, or nothing. Throws solve::ShardError; where the
-  /// plan asks to refine what cannot be refined, result::ResultFileError.
+  /// The next of the run's searches begins: the state from which it goes on, or nothing. Throws result::ResultFileError
+  /// where that is damaged.
   std::optional<solve::SearchState> next_search(const solve::Prepared& prepared);
   bool due() override;
   void keep(const solve::SearchView& state, solve::Moment moment) override;

@@ -80,6 +80,7 @@ def report(
                     max_boxes=max_boxes,
                     max_found=max_found,
                     time_limit=time_limit,
+                    surfaces_whole=False,
                     progress=progress,
                 )
             )

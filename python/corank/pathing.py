@@ -111,6 +111,7 @@ class Path(Certified):
                     threads=threads,
                     time_limit=time_limit,
                     coarser=coarser,
+                    surfaces_whole=False,
                     progress=progress,
                 )
             except ModelError:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Dict, List, NamedTuple, Optiona
 from . import _corank, exact, notebook, plotting
 from .errors import deliver, in_python
 from .optional import require
+from .options import make_options
 from .point import Interval, Point
 from .progress import ProgressOption, Shown
 
@@ -361,6 +362,36 @@ class Result:
     def save(self, path: PathLike) -> None:
         """Writes a result file: HDF5, every double bit for bit, or the CUIK suite's format if the name ends in .sol."""
         self._core.save(os.fspath(path))
+
+    def cut(
+        self,
+        sigma: Optional[float] = None,
+        *,
+        sigma_length: Optional[float] = None,
+        sigma_angle: Optional[float] = None,
+        threads: int = 0,
+        time_limit: float = 0,
+        progress: ProgressOption = None,
+    ) -> "Result":
+        """Returns the same set in narrower boxes, without a search: each sheet, a proven piece of the set, is cut, and its
+        parts inherit its proof. The proof of completeness stays with this result.
+
+        Args:
+            sigma: the largest edge of a box; None: a share of the size of the set.
+            sigma_length, sigma_angle: the same for lengths, and for sines and cosines.
+            threads: the number of threads; 0: one for each core.
+            time_limit: in seconds; 0: no limit. Boxes that are not cut by then are pending.
+
+        Raises:
+            ResultFileError: if the coefficients have a tolerance, so that the search itself depends on sigma.
+            Interrupted: on Ctrl-C, with the partial result.
+        """
+        options = make_options(
+            sigma=sigma, sigma_length=sigma_length, sigma_angle=sigma_angle, threads=threads, time_limit=time_limit
+        )
+        with Shown(progress) as show:
+            core, raised = self._core.cut(options, show)
+        return deliver(Result(core), raised)
 
     def verify(self, threads: int = 0, progress: ProgressOption = None) -> Verification:
         """Checks every box against the model, with code that shares nothing with the solver. If the result has a proof, also

@@ -166,6 +166,7 @@ def sweep(
         "time_limit": time_limit,
     }
     options["coarser"] = _corank.family_coarser
+    options["surfaces_whole"] = False
     sigmas = {name: cspace_sigma if name == "cspace" else sigma for name in sets}
     if client is not None:
         return _by_workers(constant, texts, plans, sigmas, {**options, "threads": threads or 1}, command, client, progress)

@@ -58,7 +58,6 @@ class Search {
   void search() {
     while (search_pass() && next()) {
     }
-    if (journal_) keep(view(), Moment::searched);
   }
 
   // False: nothing was there to search.
@@ -184,10 +183,6 @@ Cover solve(const Prepared& prepared, Control& control, std::uint64_t most) {
 Cover solve_on(const Prepared& prepared, Control& control, Journal* journal, std::optional<SearchState> from) {
   return run(std::make_unique<Search>(prepared, control, 0, journal, from ? std::move(*from) : beginning(prepared)),
              control);
-}
-
-bool refinable(const Prepared& prepared) {
-  return !Problem(prepared.system, prepared.reduction, [] { return false; }).tolerant;
 }
 
 }  // namespace corank::solve

@@ -36,9 +36,11 @@ struct Options {
   /// wider are counted in Cover::wider_than_sigma. kWhole: the proven sheets stay whole.
   std::optional<double> sigma{};
   std::optional<double> sigma_length{}, sigma_angle{};  ///< take sigma's place, each for its kind
-  double coarser = 1;                                   ///< the default of σ, multiplied
-  int threads = 1;                                      ///< 0: one for each core; at most kMostThreads
-  std::uint64_t max_boxes = 0;                          ///< stop after this many processed boxes; 0: no limit
+  /// Where no σ is asked for, sheets of surfaces and larger sets stay whole; curves are cut. solve::recut cuts them later.
+  bool surfaces_whole = false;
+  double coarser = 1;           ///< the default of σ, multiplied
+  int threads = 1;              ///< 0: one for each core; at most kMostThreads
+  std::uint64_t max_boxes = 0;  ///< stop after this many processed boxes; 0: no limit
   std::uint64_t max_found = 0;  ///< stop when this many boxes are found, proven or undecided; 0: no limit
   /// Stop when this many proven boxes are found, 0: all. Isolated solutions count as distinct ones, as far as the boxes
   /// found so far tell them apart. A sheet that is being cut, and other threads, may add a few more: no proof is thrown

@@ -23,6 +23,8 @@ class SelfMotions {
   std::vector<Reason> prove(const Problem& problem, const System& system, std::vector<Postponed>& boxes, double share);
   /// The largest dimension of a set that was met, as its samples show; 0: none is larger than expected. No claim.
   int observed_dimension() const { return observed_; }
+  /// In the order of CoverBox::motion.
+  const std::vector<Stratum>& known() const { return known_; }
   /// From what restored() makes the same again, with the same reduced system.
   struct Stored {
     std::vector<SelfMotionRecord> motions;  ///< in the kept variables

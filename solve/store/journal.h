@@ -44,10 +44,9 @@ struct SearchView {
 
 /// The moments at which a search offers its state.
 enum class Moment : std::uint8_t {
-  paused,    ///< the journal was due
-  searched,  ///< nothing waits any more: all sheets are there, none is cut
-  ended,     ///< a limit or an interrupt ends the search
-  cut        ///< nothing is left to do
+  paused,  ///< the journal was due
+  ended,   ///< a limit or an interrupt ends the search
+  cut      ///< nothing is left to do
 };
 
 class Journal {
@@ -60,10 +59,7 @@ class Journal {
 };
 
 /// solve::solve with a journal, where one is given, and from a state on, which is of a search of the same system with the
-/// same options but for limits and threads; a state in which nothing is cut yet may have had another σ (refinable()).
+/// same options but for limits and threads.
 Cover solve_on(const Prepared& prepared, Control& control, Journal* journal, std::optional<SearchState> from = {});
-
-/// Is the search the same whatever σ, so that its sheets can be cut anew? It is not where coefficients carry a tolerance.
-bool refinable(const Prepared& prepared);
 
 }  // namespace corank::solve

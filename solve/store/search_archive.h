@@ -82,8 +82,8 @@ void serialize(auto& archive, Postponed& p) { archive(p.box, p.near, p.noisy, p.
 void serialize(auto& archive, Work& w) { archive(w.boxes, w.postpone, w.until); }
 
 void serialize(auto& archive, Options& o) {
-  archive(o.sigma, o.sigma_length, o.sigma_angle, o.coarser, o.threads, o.max_boxes, o.max_found, o.max_solutions,
-          o.time_limit, o.memory_limit, o.proof, o.roots);
+  archive(o.sigma, o.sigma_length, o.sigma_angle, o.coarser, o.surfaces_whole, o.threads, o.max_boxes, o.max_found,
+          o.max_solutions, o.time_limit, o.memory_limit, o.proof, o.roots);
 }
 
 void serialize(auto& archive, Prepared& p) { archive(p.system, p.reduction, p.options); }

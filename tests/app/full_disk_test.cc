@@ -56,7 +56,7 @@ class FullDisk : public testing::TestWithParam<Words> {};
 
 TEST_P(FullDisk, IsSaidAndLeavesNoBrokenFile) {
   const TemporaryFolder inputs;
-  const std::string result = inputs.file("r.h5"), boxes = inputs.file("r.sol"), kept = inputs.file("kept.h5");
+  const std::string result = inputs.file("r.h5"), boxes = inputs.file("r.sol");
   const Words solve{"solve", model("three_slider"), "--set", "cspace", "--sigma", "0.3", "-o"};
   const auto solved = [&](const std::string& file, const Words& more) {
     Words words = solve;
@@ -71,14 +71,10 @@ TEST_P(FullDisk, IsSaidAndLeavesNoBrokenFile) {
   if (is_asked_for("BOXES")) {
     ASSERT_EQ(solved(boxes, {}), 0);
   }
-  if (is_asked_for("KEPT")) {
-    ASSERT_EQ(solved(kept, {"--keep-sheets"}), 0);
-  }
   const auto command = [&](const TemporaryFolder& folder) {
     Words words = placed(GetParam(), folder);
     for (std::string& word : words)
-      if (word == "RESULT" || word == "BOXES" || word == "KEPT")
-        word = word == "RESULT" ? result : word == "BOXES" ? boxes : kept;
+      if (word == "RESULT" || word == "BOXES") word = word == "RESULT" ? result : boxes;
     return words;
   };
   const TemporaryFolder all;
@@ -113,12 +109,11 @@ INSTANTIATE_TEST_SUITE_P(
     Of, FullDisk,
     testing::Values(
         Words{"solve", model("three_slider"), "--set", "cspace", "--sigma", "0.3", "-o", "@r.h5"},
-        Words{"solve", model("three_slider"), "--set", "cspace", "--sigma", "0.3", "--proof", "--keep-sheets", "-o",
-              "@r.h5"},
+        Words{"solve", model("three_slider"), "--set", "cspace", "--sigma", "0.3", "--proof", "-o", "@r.h5"},
         Words{"solve", model("three_slider"), "--set", "cspace", "--sigma", "0.3", "-o", "@r.sol"},
         Words{"solve", model("three_slider"), "--set", "cspace", "--sigma", "0.3", "--json", "@r.json"},
         Words{"solve", model("dextar"), "--set", "cspace", "--max-boxes", "300", "--checkpoint", "@c.kept"},
-        Words{"solve", "--refine", "KEPT", "--sigma", "0.1", "-o", "@fine.h5"},
+        Words{"solve", "--refine", "RESULT", "--sigma", "0.1", "-o", "@fine.h5"},
         Words{"derive", model("dextar"), "-o", "@d.txt"},
         Words{"derive", model("dextar"), "--format", "cuik", "-o", "@d.cuik"},
         Words{"report", model("three_slider"), "-o", "@page"}, Words{"report", "--results", "RESULT", "-o", "@page"},

@@ -139,40 +139,29 @@ TEST(Resume, OfASetOfPartsGoesOnInTheRightPart) {
   expect_same(whole, file);
 }
 
-TEST(Refine, CutsTheSheetsAsASearchWithThatSigmaDoes) {
+TEST(Refine, CutsTheSheetsOfAnyResult) {
   const TemporaryFolder folder;
-  const std::string coarse = folder.file("coarse.h5"), fine = folder.file("fine.h5"), anew = folder.file("anew.h5");
-  const Words solve{"solve", model("dextar"), "--set", "forward"};
-  EXPECT_EQ(run_corank(with(solve, {"--sigma", "0.5", "--keep-sheets", "-o", coarse})).status, 0);
-  EXPECT_EQ(run_corank({"solve", "--refine", coarse, "--sigma", "0.05", "-o", fine}).status, 0);
-  EXPECT_EQ(run_corank(with(solve, {"--sigma", "0.05", "-o", anew})).status, 0);
-  expect_same(anew, fine);
-  const Outcome without = run_corank({"solve", "--refine", anew, "--sigma", "0.01", "-o", fine});
-  EXPECT_EQ(without.status, 1);
-  EXPECT_THAT(without.err, HasSubstr("--keep-sheets"));
-  EXPECT_EQ(run_corank({"solve", "--refine", coarse, "--sigma", "0.05"}).status, 2) << "without -o";
-}
-
-TEST(Refine, CutsSheetsThatAreWhole) {
-  const TemporaryFolder folder;
-  const std::string whole = folder.file("whole.h5"), fine = folder.file("fine.h5"), anew = folder.file("anew.h5");
-  const Words plane{"solve", model("dextar"), "--set", "cspace"};
+  const std::string whole = folder.file("whole.h5"), fine = folder.file("fine.h5");
+  const Words curve{"solve", model("dextar"), "--set", "forward"}, plane{"solve", model("dextar"), "--set", "cspace"};
   const Words arm{"solve", model("serial/puma_560"), "--set", "inverse", "-D", "lo3=-1", "-D", "up3=0"};
-  for (const Words& question : {plane, arm}) {
-    SCOPED_TRACE(question[1]);
-    const Outcome first = run_corank(with(question, {"--sigma", "inf", "--keep-sheets", "-o", whole, "--json"}));
+  for (const Words& question : {curve, plane, arm}) {
+    SCOPED_TRACE(question[1] + " " + question[3]);
+    const Outcome first = run_corank(with(question, {"-o", whole, "--json"}));
     ASSERT_EQ(first.status, 0) << first.err;
-    EXPECT_TRUE(nlohmann::json::parse(first.out)["options"]["sigma"].is_null());
-    EXPECT_EQ(run_corank({"solve", "--refine", whole, "--sigma", "0.2", "-o", fine}).status, 0);
-    EXPECT_EQ(run_corank(with(question, {"--sigma", "0.2", "-o", anew})).status, 0);
-    expect_same(anew, fine);
+    EXPECT_EQ(nlohmann::json::parse(first.out)["options"]["sigma"].is_null(), question != curve);
+    const Words refine{"solve", "--refine", whole, "--sigma", question == curve ? "0.005" : "0.2", "-o", fine};
+    const Outcome second = run_corank(refine);
+    ASSERT_EQ(second.status, 0) << second.err;
     const result::Result sheets = result::read_result(whole), boxes = result::read_result(fine);
-    EXPECT_EQ(sheets.cover.wider_than_sigma, 0u);
-    EXPECT_LT(2 * sheets.cover.boxes.size(), boxes.cover.boxes.size());
-    if (question == plane) {
-      EXPECT_EQ(run_corank({"verify", whole}).status, 4) << "every claim, but no proof of completeness";
-    }
+    EXPECT_LT(sheets.cover.boxes.size() + 1000, boxes.cover.boxes.size());
+    EXPECT_EQ(boxes.parts.size(), sheets.parts.size());
+    EXPECT_EQ(boxes.cover.count(Verdict::undecided), sheets.cover.count(Verdict::undecided));
+    EXPECT_EQ(boxes.cover.wider_than_sigma, 0u);
+    EXPECT_EQ(boxes.cover.types.asked, sheets.cover.types.asked);
+    EXPECT_EQ(run_corank({"verify", fine}).status, 4) << "every claim, but no proof of completeness";
   }
+  EXPECT_EQ(run_corank({"solve", "--refine", whole, "--sigma", "0.2"}).status, 2) << "without -o";
+  EXPECT_EQ(run_corank({"solve", "--refine", whole, "--sigma", "0.2", "--proof", "-o", fine}).status, 2);
 }
 
 TEST(Refine, IsRefusedWhereSigmaSteersTheSearch) {
@@ -180,12 +169,21 @@ TEST(Refine, IsRefusedWhereSigmaSteersTheSearch) {
   const std::string coarse = folder.file("coarse.h5");
   const std::string circle =
       folder.write("circle.cuik", "[SYSTEM VARS]\nx : [-2,2]\ny : [-2,2]\n[SYSTEM EQS]\nx^2 + 1.1*y^2 = 1;\n");
-  const Outcome first =
-      run_corank({"solve", circle, "--tolerance", "1e-6", "--sigma", "0.5", "--keep-sheets", "-o", coarse});
+  const Outcome first = run_corank({"solve", circle, "--tolerance", "1e-6", "--sigma", "0.5", "-o", coarse});
   ASSERT_EQ(first.status, 0) << first.err;
   const Outcome refined = run_corank({"solve", "--refine", coarse, "--sigma", "0.1", "-o", folder.file("fine.h5")});
   EXPECT_EQ(refined.status, 1);
   EXPECT_THAT(refined.err, HasSubstr("tolerance"));
+}
+
+TEST(Refine, PicturesCutSheetsThatAreWhole) {
+  const TemporaryFolder folder;
+  const std::string whole = folder.file("whole.h5"), cut = folder.file("cut.h5");
+  ASSERT_EQ(run_corank({"solve", model("dextar"), "--set", "cspace", "-o", whole}).status, 0);
+  ASSERT_EQ(run_corank({"solve", "--refine", whole, "-o", cut}).status, 0);
+  for (const std::string& file : {whole, cut})
+    ASSERT_EQ(run_corank({"plot", file, "--axes", "J3x,J3y", "-o", file + ".svg"}).status, 0);
+  EXPECT_EQ(read_text(whole + ".svg"), read_text(cut + ".svg"));
 }
 
 class Kept : public testing::Test {

@@ -160,32 +160,6 @@ TEST(Resuming, WhatTheClockHasEndedAnywhereMakesTheCoverOfOneSearch) {
   }
 }
 
-TEST(Resuming, TheSheetsAtAnotherSigmaMakesTheCoverOfASearchWithIt) {
-  class Searched : public Journal {
-   public:
-    bool due() override { return false; }
-    void keep(const SearchView& state, Moment moment) override {
-      if (moment == Moment::searched) bytes = to_bytes(state);
-    }
-    std::string bytes;
-  };
-  for (const System& system : {torus().system(), lemniscate(), plane_and_line()}) {
-    Options options;
-    options.sigma = 0.5;
-    const Prepared coarse = prepared_with(system, options);
-    EXPECT_TRUE(refinable(coarse));
-    Searched sheets;
-    Control control;
-    const Cover first = solve_on(coarse, control, &sheets);
-    options.sigma = 0.1;
-    const Prepared fine = prepared_with(system, options);
-    Control again, other;
-    const Cover refined = solve_on(fine, again, nullptr, state_from(sheets.bytes, fine));
-    EXPECT_GT(refined.boxes.size(), first.boxes.size());
-    expect_same(solve(fine, other), refined);
-  }
-}
-
 TEST(Resuming, WhatIsDamagedIsRefused) {
   Options options;
   options.sigma = 0.5;

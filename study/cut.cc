@@ -1,0 +1,71 @@
+#include "corank/study/cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "corank/result/files/verification.h"
+#include "corank/result/values/sentences.h"
+#include "corank/solve/search/box_labels.h"
+#include "corank/solve/search/recut.h"
+
+namespace corank::study {
+namespace {
+
+// Of a result without parts, or a part.
+void cut_one(const symbolic::Mechanism& model, const solve::Options& options, solve::Control& control,
+             result::Result& result) {
+  const System system = result::system_of(model, result);
+  const solve::Prepared prepared = solve::prepare(system, options, control);
+  const auto blocks = result::blocks_of(result);
+  const std::size_t left_out = result.cover.types.left_out;
+  Cover& cover = result.cover;
+  try {
+    cover = solve::recut(prepared, std::move(cover), control);
+  } catch (const std::invalid_argument& error) {
+    throw result::ResultFileError(std::string("its boxes cannot be cut: ") + error.what());
+  }
+  solve::bound_kernel_dimensions(prepared, cover, control);
+  solve::prove_passages(prepared, cover, control);
+  if (blocks) {
+    solve::label_types(prepared, *blocks, cover, control);
+    if (const auto type = symbolic::definition(result.set).type) solve::keep_only(*type, cover);
+    cover.types.left_out += left_out;
+  }
+  result.options.sigma = cover.sigma;
+  result::describe_in_words(model, system, result);
+}
+
+}  // namespace
+
+bool is_whole(const result::Result& result) {
+  const auto is_sheet = [](const CoverBox& box) {
+    return box.verdict == Verdict::regular || box.verdict == Verdict::boundary;
+  };
+  return std::isinf(result.cover.sigma.largest()) && result.cover.dimension > 0 &&
+         std::ranges::any_of(result.cover.boxes, is_sheet);
+}
+
+result::Result cut(result::Result result, const solve::Options& options, solve::Control& control) {
+  if (result.options.tolerance > 0)
+    throw result::ResultFileError(
+        "the search itself depends on sigma here, since coefficients have a tolerance; expected a new search");
+  const symbolic::Mechanism model = result::model_of(result);
+  result.search.clear();
+  if (result.parts.empty()) {
+    cut_one(model, options, control, result);
+    return result;
+  }
+  for (result::Result& part : result.parts) cut_one(model, options, control, part);
+  result::merge_parts(result);
+  result::describe_in_words(model, result::system_of(model, result), result);
+  return result;
+}
+
+result::Result cut_for_picture(result::Result result, int threads, solve::Control& control) {
+  if (!is_whole(result) || result.options.tolerance > 0) return result;
+  return cut(std::move(result), {.threads = threads}, control);
+}
+
+}  // namespace corank::study

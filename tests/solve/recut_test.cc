@@ -1,0 +1,134 @@
+// Covers whose sheets are whole, cut to boxes afterwards. Random surfaces with known points:
+//
+//     (x/a)² + (y/b)² + (z/c)² = 1,  t = x y − d z
+//
+// of which the reduction eliminates t; and curves and surfaces of the other tests.
+#include "corank/solve/search/recut.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include "corank/check/checker.h"
+#include "corank/tests/cover_lookup.h"
+#include "corank/tests/seeds.h"
+#include "corank/tests/solve/same_cover.h"
+
+namespace corank::solve {
+namespace {
+
+Cover cut_to(const System& system, Cover cover, Options options) {
+  Control control;
+  return recut(prepare(system, options, control), std::move(cover), control);
+}
+
+// Its half-axes and d are quarters.
+struct Ellipsoid {
+  int a, b, c, d;
+  explicit Ellipsoid(std::mt19937& random) {
+    std::uniform_int_distribution<int> axis(1, 6);
+    a = axis(random), b = axis(random), c = axis(random), d = axis(random);
+  }
+  // The domain ends at x = 3/4: the surface reaches beyond it where a > 3.
+  System system() const {
+    SystemBuilder builder;
+    const int x = builder.variable("x", "-2", "3/4"), y = builder.variable("y", "-2", "2"),
+              z = builder.variable("z", "-2", "2"), t = builder.variable("t", "-9", "9");
+    const auto inverse_square = [](int quarters) { return "16/" + std::to_string(quarters * quarters); };
+    builder.equation(
+        {{inverse_square(a), {{x, 2}}}, {inverse_square(b), {{y, 2}}}, {inverse_square(c), {{z, 2}}}, {"-1", {}}});
+    builder.equation({{"1", {{t, 1}}}, {"-1", {{x, 1}, {y, 1}}}, {std::to_string(d) + "/4", {{z, 1}}}});
+    return builder.system();
+  }
+  std::vector<double> at(double u, double v) const {
+    const double x = a / 4.0 * std::cos(u) * std::cos(v), y = b / 4.0 * std::cos(u) * std::sin(v), z = c / 4.0 * std::sin(u);
+    return {x, y, z, x * y - d / 4.0 * z};
+  }
+};
+
+TEST(Recut, LosesNothingAndClaimsNothingFalse) {
+  int losses = 0;
+  for (unsigned seed = 1; seed <= test::seeds(10); ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const Ellipsoid planted(random);
+    const System system = planted.system();
+    const Cover whole = solve(system, {.surfaces_whole = true});
+    EXPECT_TRUE(std::isinf(whole.sigma.length));
+    const Cover cut = cut_to(system, whole, {.sigma = 0.1});
+    EXPECT_TRUE(cut.complete());
+    EXPECT_GT(cut.boxes.size(), 2 * whole.boxes.size());
+    EXPECT_LE(test::widest_edge(cut, 4), 0.1);
+    EXPECT_EQ(cut.statistics.processed, whole.statistics.processed);
+    const test::CoverLookup lookup(cut);
+    std::uniform_real_distribution<double> angle(-4, 4);
+    for (int k = 0; k < 500; ++k) {
+      const std::vector<double> point = planted.at(angle(random), angle(random));
+      losses += point[0] < 0.75 && !lookup.holds(point, 1e-12);
+    }
+    EXPECT_TRUE(check::check(system, cut).verified());
+  }
+  EXPECT_EQ(losses, 0);
+}
+
+TEST(Recut, TakesTheDefaultOfSigmaFromTheSet) {
+  std::mt19937 random(3);
+  const System system = Ellipsoid(random).system();
+  const Cover whole = solve(system, {.surfaces_whole = true}), cut = cut_to(system, whole, {}), direct = solve(system, {});
+  EXPECT_NEAR(cut.sigma.length, direct.sigma.length, 0.3 * direct.sigma.length);
+  EXPECT_EQ(cut.wider_than_sigma, 0u);
+  EXPECT_EQ(solve(system, {.sigma = 0.1, .surfaces_whole = true}).sigma.length, 0.1) << "an own sigma is kept";
+}
+
+TEST(Recut, OfACurveThatIsCutAlreadyMakesNarrowerBoxes) {
+  const System system = lemniscate();
+  const Cover first = solve(system, {.surfaces_whole = true}), finer = cut_to(system, first, {.sigma = 0.002});
+  EXPECT_TRUE(std::isfinite(first.sigma.length)) << "curves are cut";
+  EXPECT_GT(finer.boxes.size(), 2 * first.boxes.size());
+  EXPECT_EQ(finer.count(Verdict::undecided), first.count(Verdict::undecided));
+  EXPECT_TRUE(check::check(system, finer).verified());
+}
+
+TEST(Recut, KeepsSelfMotions) {
+  const System system = plane_and_line();
+  const Cover whole = solve(system, {.sigma = kWhole}), cut = cut_to(system, whole, {.sigma = 0.1});
+  ASSERT_EQ(whole.self_motions.size(), 1u);
+  EXPECT_EQ(cut.self_motions.size(), 1u);
+  const auto on_motion = [](const Cover& c) {
+    return std::ranges::count_if(c.boxes, [](auto& b) { return b.motion >= 0; });
+  };
+  EXPECT_GT(on_motion(cut), 5 * on_motion(whole));
+  EXPECT_TRUE(check::check(system, cut).verified());
+}
+
+TEST(Recut, RefusesTheCoverOfAnotherSystem) {
+  std::mt19937 random(1);
+  const System system = Ellipsoid(random).system();
+  const Cover whole = solve(system, {.sigma = kWhole});
+  EXPECT_THROW(cut_to(lemniscate(), whole, {.sigma = 0.1}), std::invalid_argument);
+}
+
+TEST(Recut, EndsWithItsControlAndLosesNothing) {
+  std::mt19937 random(2);
+  const Ellipsoid planted(random);
+  const System system = planted.system();
+  const Cover whole = solve(system, {.sigma = kWhole});
+  int glances = 0;
+  Control control({.time = 1, .clock = [&] { return glances++ > 20 ? 1.05 : 0.0; }});
+  const Cover cut = recut(prepared_with(system, {.sigma = 0.01}), whole, control);
+  EXPECT_FALSE(cut.complete());
+  const test::CoverLookup lookup(cut);
+  std::uniform_real_distribution<double> angle(-4, 4);
+  for (int k = 0; k < 200; ++k) {
+    const std::vector<double> point = planted.at(angle(random), angle(random));
+    if (point[0] < 0.75) {
+      EXPECT_TRUE(lookup.holds(point, 1e-12));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace corank::solve
