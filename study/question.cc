@@ -10,6 +10,7 @@
 #include "corank/solve/step/propagation.h"
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/free_coordinates.h"
 
 namespace corank::study {
 
@@ -43,13 +44,14 @@ Components components_wanted(const Question& q) {
   if (q.in_parts) return *q.in_parts ? Components::yes : Components::no;
   // These can be assembled in several ways, which meet at configurations whose kernels have larger dimensions.
   if (q.assembly && (!q.assembly->parallelograms.empty() || q.assembly->has_universal_rods)) return Components::yes;
-  constexpr long kLeastMobility = 3, kLongKernel = 10;
+  constexpr long kLeastMobility = 3, kLongKernel = 10, kLongKernelOfAnArm = 6;
   const std::vector<symbolic::Coordinate>& all = q.model.coordinates();
   const bool own = q.model.has_own_velocity_equation();
   const long columns = own ? std::ssize(q.model.rates()) : std::ssize(all),
              rows = own ? std::ssize(q.model.velocity_equations()) : std::ssize(q.model.equations());
   if (columns - rows - std::count_if(all.begin(), all.end(), symbolic::is_fixed) >= kLeastMobility) return Components::yes;
-  return rows >= kLongKernel ? Components::if_simple : Components::no;
+  const bool is_long = rows >= kLongKernel || (rows >= kLongKernelOfAnArm && symbolic::free_coordinates(q.model));
+  return is_long ? Components::if_simple : Components::no;
 }
 
 bool has_kernel(const Question& q) {

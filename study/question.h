@@ -37,8 +37,8 @@ void require_exact_value(const symbolic::Mechanism& model, const symbolic::Expre
 /// itself. A union, or a set that has an equation in place of the kernel vector, is solved so where it has dimension 2 or
 /// more, or the robot has written-out parallelograms, along whose flat positions parts coincide; where it is asked for
 /// without a kernel's side or corank, and `in_parts` does not say otherwise. So is a curve or points where the kernel vector
-/// would have ten unknowns or more and no part has one. Other curves and points are few boxes either way, and the kernel
-/// vector of the whole says more. Throws symbolic::ModelError. `ended`: as decompose().
+/// would have ten unknowns or more, of an arm six, and no part has one. Other curves and points are few boxes either way,
+/// and the kernel vector of the whole says more. Throws symbolic::ModelError. `ended`: as decompose().
 std::vector<Question> parts_of(const Question& question, const Ended& ended = {});
 
 /// The equations of the set, its kernel vectors scaled (symbolic/sets/kernel_scale.h); of a set of parts those of
