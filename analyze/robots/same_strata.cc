@@ -137,6 +137,12 @@ std::optional<std::array<System, 2>> halves(const System& system, const System& 
 
 }  // namespace
 
+std::vector<Polynomial> polynomials(const std::vector<DividingFunction>& functions) {
+  std::vector<Polynomial> result;
+  for (const DividingFunction& f : functions) result.push_back(f.function);
+  return result;
+}
+
 // The hypothesis is one about each point of M: so it may be proven over parts of P.
 std::string obstacle_to_same_strata(const System& system, const std::vector<DividingFunction>& functions,
                                     const std::vector<std::string>& own_ends, const SameStrataOptions& options,

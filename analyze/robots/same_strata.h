@@ -28,6 +28,8 @@ struct DividingFunction {
   std::string name;
 };
 
+std::vector<Polynomial> polynomials(const std::vector<DividingFunction>& functions);
+
 struct SameStrataOptions {
   int threads = 1;
   int parts = 1;                   ///< of the tolerances, at most: of robots in each the hypothesis is proven by itself
