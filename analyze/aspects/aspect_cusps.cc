@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "corank/analyze/aspects/aspect_equations.h"
+#include "corank/analyze/sets/limits.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/core/rounding.h"
 #include "corank/result/values/sentences.h"
@@ -84,10 +85,12 @@ AspectCusps aspect_cusps(const AspectEquations& asked, SignCells& cells, const P
   return cusps;
 }
 
-void check_parity(const study::Question& question, int threads, solve::Control& control, AspectCusps& cusps) {
+void check_parity(const study::Question& question, const System& system, int threads, solve::Control& control,
+                  AspectCusps& cusps) {
   if (!cusps.all[0] && !cusps.all[1]) return;
   constexpr std::uint64_t kMostForAHeight = 200'000;
-  const Topology shape = topology(question, {.threads = threads, .most_for_a_height = kMostForAHeight}, control);
+  const Topology shape =
+      topology_of_one(question, system, {.threads = threads, .most_for_a_height = kMostForAHeight}, control);
   if (shape.dimension != 2 || !shape.smooth || !shape.ends.empty() || !shape.euler_characteristic) return;
   cusps.euler_characteristic = shape.euler_characteristic;
   for (std::size_t locus = 0; locus < 2; ++locus) {

@@ -46,6 +46,8 @@ AspectCusps aspect_cusps(const AspectEquations& asked, SignCells& cells, const P
 
 /// Looks at the parity of their numbers, where C-space, of two dimensions, comes to no end, and its Euler characteristic is
 /// found with few boxes. A locus whose number has the other one is no longer known as a whole.
-void check_parity(const study::Question& question, int threads, solve::Control& control, AspectCusps& cusps);
+/// `system`: study::system(question).
+void check_parity(const study::Question& question, const System& system, int threads, solve::Control& control,
+                  AspectCusps& cusps);
 
 }  // namespace corank::analyze

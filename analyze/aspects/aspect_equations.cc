@@ -13,11 +13,10 @@
 namespace corank::analyze {
 namespace {
 
-std::vector<DividingFunction> functions_of(const symbolic::TrigonometricSystem& equations,
-                                           const std::vector<symbolic::Expression>& expressions) {
-  std::vector<DividingFunction> result;
-  for (Polynomial& f : symbolic::polynomials(equations, expressions))
-    result.push_back({std::move(f), expressions[result.size()].text()});
+std::vector<Polynomial> functions_of(const symbolic::TrigonometricSystem& equations,
+                                     const std::vector<symbolic::Expression>& expressions) {
+  std::vector<Polynomial> result = symbolic::polynomials(equations, expressions);
+  for (std::size_t k = 0; k < result.size(); ++k) result[k].source = expressions[k].text();
   return result;
 }
 
@@ -28,26 +27,19 @@ std::vector<Polynomial> entries_of(const symbolic::TrigonometricSystem& equation
   return symbolic::polynomials(equations, entries);
 }
 
-template <class T>
-std::vector<T> chosen(const std::vector<T>& all, const std::vector<std::size_t>& places) {
-  std::vector<T> result;
-  for (const std::size_t i : places) result.push_back(all[i]);
-  return result;
-}
-
 PartEquations part_equations(const symbolic::IndependentPart& part, const symbolic::Loci& loci) {
   PartEquations result;
   for (const symbolic::Coordinate& c : part.system.coordinates) result.coordinates.push_back(c.name);
   result.system = symbolic::algebrize(part.system);
   const auto lists = loci.lists();
   for (std::size_t k = 0; k < lists.size(); ++k) {
-    std::vector<std::size_t> own;
+    std::vector<symbolic::Expression> own;
     for (std::size_t i = 0; i < lists[k].size(); ++i) {
       if (std::ranges::find(part.functions, lists[k][i]) == part.functions.end()) continue;
       result.places[k].push_back(i);
-      own.push_back(lists[k][i]);
+      own.push_back(loci.all_factors[lists[k][i]]);
     }
-    result.functions[k] = functions_of(part.system, chosen(loci.all_factors, own));
+    result.functions[k] = functions_of(part.system, own);
   }
   return result;
 }
@@ -60,9 +52,8 @@ std::optional<ProductEquations> product_equations(const symbolic::Mechanism& mod
   const auto parts = symbolic::independent_parts(*free, loci.all_factors);
   if (!parts) return std::nullopt;
   ProductEquations result;
-  const auto& coordinates = model.coordinates();
-  const auto fixed = static_cast<std::size_t>(std::ranges::count_if(coordinates, symbolic::is_fixed));
-  result.counts = coordinates.size() - fixed > model.equations().size() + 2;
+  const auto fixed = static_cast<std::size_t>(std::ranges::count_if(model.coordinates(), symbolic::is_fixed));
+  result.counts = model.coordinates().size() - fixed > model.equations().size() + 2;
   for (const symbolic::IndependentPart& part : *parts) result.parts.push_back(part_equations(part, loci));
   std::vector<symbolic::Expression> values;
   for (const symbolic::Relation& r : free->given) {
@@ -113,9 +104,10 @@ AspectEquations aspect_equations(study::Question question, bool requirements, bo
     result.reason = error.what();
     return result;
   }
-  const std::vector<DividingFunction> all = functions_of(equations, loci.all_factors);
+  const std::vector<Polynomial> all = functions_of(equations, loci.all_factors);
   const auto lists = loci.lists();
-  for (std::size_t k = 0; k < lists.size(); ++k) result.functions[k] = chosen(all, lists[k]);
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    for (const std::size_t i : lists[k]) result.functions[k].push_back(all[i]);
   result.constants = functions_of(equations, loci.constants);
   for (std::size_t k = 0; k < 2; ++k) {
     for (const auto& e : loci.factors[k]) result.factors[k].push_back(e.text());

@@ -7,13 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "corank/analyze/robots/same_strata.h"
 #include "corank/analyze/sets/standing.h"
 #include "corank/study/question.h"
 
 namespace corank::analyze {
 
-/// Of what divides a set into aspects, assembly modes and working modes.
+/// Of what divides a set into aspects, assembly modes and working modes. Polynomial::source is a function's text.
 template <class T>
 using Lists = std::array<std::vector<T>, 3>;
 
@@ -21,7 +20,7 @@ using Lists = std::array<std::vector<T>, 3>;
 struct PartEquations {
   std::vector<std::string> coordinates;
   System system;
-  Lists<DividingFunction> functions;
+  Lists<Polynomial> functions;
   Lists<std::size_t> places;  ///< of the functions in C-space's lists
 };
 
@@ -45,9 +44,9 @@ struct CuspEquations {
 struct AspectEquations {
   study::Question question;  ///< about C-space
   System system{};
-  Lists<DividingFunction> functions{};                  ///< the first list holds all
+  Lists<Polynomial> functions{};                        ///< the first list holds all
   std::array<std::vector<std::string>, 2> factors{};    ///< of det L_y, det L_z
-  std::vector<DividingFunction> constants{};            ///< factors of both without a coordinate
+  std::vector<Polynomial> constants{};                  ///< factors of both without a coordinate
   std::array<std::vector<Polynomial>, 2> matrices{};    ///< L_y, L_z, row by row
   std::vector<std::string> required{}, further{};       ///< of pieces; and functions that divide C-space for it
   std::optional<Standings> standings{};                 ///< where something is required

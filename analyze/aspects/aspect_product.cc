@@ -23,7 +23,7 @@ std::string count_pieces(const PartEquations& equations, const AspectsOptions& o
   part.cover = space.cover;
   reached.insert(reached.end(), space.limits.begin(), space.limits.end());
   for (std::size_t k = 0; k < part.lists.size(); ++k) {
-    for (const DividingFunction& f : equations.functions[k]) part.factors[k].push_back(f.name);
+    for (const Polynomial& f : equations.functions[k]) part.factors[k].push_back(f.source);
     if (k > 0 && part.factors[k] == part.factors[0]) {
       part.lists[k] = part.lists[0];
       continue;

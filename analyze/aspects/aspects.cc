@@ -1,36 +1,29 @@
 #include "corank/analyze/aspects/aspects.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "corank/analyze/aspects/aspect_product.h"
 #include "corank/analyze/aspects/divided_space.h"
+#include "corank/analyze/robots/same_strata.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
 namespace {
 
-// Of the determinant of a square matrix, given row by row, at each of the boxes.
-std::vector<int> signs_of_determinant(const System& system, const std::vector<Polynomial>& entries,
-                                      const std::vector<Box>& boxes) {
-  const certify::CompiledSystem compiled(system, entries);
-  const int n = static_cast<int>(std::lround(std::sqrt(entries.size())));
-  const UpwardRounding rounding;
-  std::vector<int> result;
-  for (const Box& box : boxes) {
-    certify::IntervalMatrix values(n, n);
-    for (int k = 0; k < n * n; ++k) values.entries[k] = compiled.evaluate(compiled.value_row(k), box);
-    result.push_back(sign_of(certify::determinant(values)));
-  }
-  return result;
-}
-
 void add_determinant_signs(const AspectEquations& equations, Aspects& result) {
   const std::vector<Box>& at = result.aspects.representatives;
-  const std::vector<int> y = signs_of_determinant(result.system, equations.matrices[0], at);
-  const std::vector<int> z = signs_of_determinant(result.system, equations.matrices[1], at);
-  for (std::size_t k = 0; k < at.size(); ++k) result.determinant_signs.push_back({y[k], z[k]});
+  result.determinant_signs.resize(at.size());
+  for (std::size_t k = 0; k < 2; ++k) {
+    const certify::CompiledSystem compiled(result.system, equations.matrices[k]);
+    const int n = static_cast<int>(std::lround(std::sqrt(compiled.values())));
+    const UpwardRounding rounding;
+    certify::IntervalMatrix values(n, n);
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      for (int e = 0; e < n * n; ++e) values.entries[e] = compiled.evaluate(compiled.value_row(e), at[i]);
+      result.determinant_signs[i][k] = sign_of(certify::determinant(values));
+    }
+  }
 }
 
 void count_on_cells(const AspectEquations& equations, const AspectsOptions& options, solve::Control& control,
@@ -63,7 +56,7 @@ void count_on_cells(const AspectEquations& equations, const AspectsOptions& opti
   };
   result.aspects = count(0);
   if (result.cusps && dimension == 2 && result.limits.empty())
-    check_parity(equations.question, options.threads, control, *result.cusps);
+    check_parity(equations.question, equations.system, options.threads, control, *result.cusps);
   result.assembly_modes = count(1);
   result.working_modes = count(2);
 }
@@ -86,21 +79,17 @@ Aspects count(const AspectEquations& equations, const AspectsOptions& options, s
   return result;
 }
 
-// A determinant vanishes for a robot of which such a factor does.
-std::string obstacle_of_constants(const System& system, const std::vector<DividingFunction>& constants) {
-  const certify::CompiledSystem compiled(system, polynomials(constants));
-  const UpwardRounding rounding;
-  for (std::size_t k = 0; k < constants.size(); ++k)
-    if (compiled.evaluate(compiled.value_row(static_cast<int>(k)), system.domain()).contains_zero())
-      return "a determinant has the factor " + constants[k].name + ", which may be 0";
-  return "";
-}
-
-// Why not every robot has as many. Parts of a C-space that is a product over the same tolerances: if each is, up to a
-// homeomorphism, the same for all robots, the product is.
+// Why not every robot has as many. A determinant vanishes for a robot of which a constant factor does. Parts of a C-space
+// that is a product over the same tolerances: if each is, up to a homeomorphism, the same for all robots, the product is.
 std::string obstacle_of(const AspectEquations& robots, const std::vector<std::string>& own_ends,
                         const SameStrataOptions& how, solve::Control& control) {
-  std::string obstacle = robots.reason.empty() ? obstacle_of_constants(robots.system, robots.constants) : robots.reason;
+  std::string obstacle = robots.reason;
+  const certify::CompiledSystem compiled(robots.system, robots.constants);
+  for (std::size_t k = 0; k < robots.constants.size() && obstacle.empty(); ++k) {
+    const UpwardRounding rounding;
+    if (compiled.evaluate(compiled.value_row(static_cast<int>(k)), robots.system.domain()).contains_zero())
+      obstacle = "a determinant has the factor " + robots.constants[k].source + ", which may be 0";
+  }
   if (!obstacle.empty()) return obstacle;
   if (!robots.product) return obstacle_to_same_strata(robots.system, robots.functions[0], own_ends, how, control);
   for (const PartEquations& part : robots.product->parts)
@@ -143,13 +132,9 @@ Aspects aspects_of_robots(study::Question question, const AspectsOptions& option
 
 ExactNumbers exact_numbers_of(const Aspects& a) {
   ExactNumbers numbers;
-  const auto add = [&](const char* name, const Pieces& p) {
-    if (p.exact()) numbers.emplace_back(name, p.at_least);
-  };
-  if (!a.reason.empty()) return numbers;
-  add("aspects", a.aspects);
-  add("assembly_modes", a.assembly_modes);
-  add("working_modes", a.working_modes);
+  for (const auto& [name, p] : {std::pair("aspects", &a.aspects), std::pair("assembly_modes", &a.assembly_modes),
+                                std::pair("working_modes", &a.working_modes)})
+    if (a.reason.empty() && p->exact()) numbers.emplace_back(name, p->at_least);
   return numbers;
 }
 

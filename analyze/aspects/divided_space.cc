@@ -31,9 +31,9 @@ DividedSpace divided_space(System system, const AspectsOptions& options, solve::
   return space;
 }
 
-SignCells cells_of(const DividedSpace& space, const std::vector<DividingFunction>& functions, const AspectsOptions& options,
+SignCells cells_of(const DividedSpace& space, const std::vector<Polynomial>& functions, const AspectsOptions& options,
                    solve::Control& control) {
-  SignCells cells(space.system, *space.cover, polynomials(functions), space.ends, [&control] { return control.ended(); });
+  SignCells cells(space.system, *space.cover, functions, space.ends, [&control] { return control.ended(); });
   cells.refine(options.halvings, options.rounds, control);
   return cells;
 }

@@ -7,7 +7,6 @@
 
 #include "corank/analyze/aspects/aspects.h"
 #include "corank/analyze/pieces/sign_cells.h"
-#include "corank/analyze/robots/same_strata.h"
 
 namespace corank::analyze {
 
@@ -23,7 +22,7 @@ DividedSpace divided_space(System system, const AspectsOptions& options, solve::
 
 /// Cells of the space on which the functions are known, as far as `options` and `control` let them be divided. The space has
 /// to outlive them.
-SignCells cells_of(const DividedSpace& space, const std::vector<DividingFunction>& functions, const AspectsOptions& options,
+SignCells cells_of(const DividedSpace& space, const std::vector<Polynomial>& functions, const AspectsOptions& options,
                    solve::Control& control);
 
 }  // namespace corank::analyze

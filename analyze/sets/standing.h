@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "corank/core/box.h"
+#include "corank/core/cover.h"
 #include "corank/core/requirement.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
