@@ -42,7 +42,7 @@ ExitStatus aspects(AspectsCommand command) {
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no aspects", command.question.file));
   if (drawn) command.options.drawn = report::drawn_coordinates(question.model);
-  if (command.areas && !analyze::has_plane_of_lengths(question.model))
+  if (command.areas && !analyze::is_plane_of_lengths(question.model, question.model.outputs()))
     throw UsageError(fmt::format("--areas: without effect; expected two outputs that are lengths, which {} does not have",
                                  command.question.file));
   if (command.areas) command.options.images = question.model.outputs();

@@ -32,7 +32,6 @@ std::string PathCommand::line() const {
   };
   add_end("--from", from, from_mode);
   add_end("--to", to, to_mode);
-  for (const std::string& requirement : question.require) text += " --require '" + requirement + "'";
   if (avoid != (question.require.empty() ? "forward" : "requirements")) text += " --avoid " + avoid;
   if (options.radius > 0) text += fmt::format(" --radius {:g}", options.radius);
   if (!output.empty()) text += " -o " + std::filesystem::path(output).filename().string();

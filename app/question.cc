@@ -84,6 +84,8 @@ std::string QuestionOptions::command_line(const std::string& subcommand) const {
   std::string text = "corank " + subcommand + " " + std::filesystem::path(file).filename().string();
   if (!loops.empty()) text += " --loops " + std::filesystem::path(loops).filename().string();
   for (const std::string& definition : definitions) text += " -D '" + definition + "'";
+  if (corank != 1) text += fmt::format(" --corank {}", corank);
+  for (const std::string& requirement : require) text += " --require '" + requirement + "'";
   return text;
 }
 

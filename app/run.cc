@@ -220,15 +220,4 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   }
 }
 
-std::optional<int> usage_status(const std::string& usage, const std::vector<std::string>& args, std::size_t fewest) {
-  const bool asked = !args.empty() && (args[0] == "-h" || args[0] == "--help");
-  if (!asked && args.size() >= fewest) return std::nullopt;
-  fmt::print(asked ? stdout : stderr, "{}", usage);
-  return asked ? kDone : kUsage;
-}
-
-std::string with_extension(const std::string& name, const std::string& extension) {
-  return name.ends_with(extension) ? name : name + extension;
-}
-
 }  // namespace corank::app

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "corank/app/limited_run.h"
 #include "corank/app/progress.h"
@@ -78,13 +77,9 @@ solve::Options SetSearch::options(const System& system, SingularitySet set) cons
 }
 
 std::string SetSearch::command_line(const std::string& subcommand, const QuestionOptions& question) const {
-  std::string text = "corank " + subcommand + " " + std::filesystem::path(question.file).filename().string();
-  if (!question.loops.empty()) text += " --loops " + std::filesystem::path(question.loops).filename().string();
+  std::string text = question.command_line(subcommand);
   if (sigma) text += fmt::format(" --sigma {:g}", *sigma);
   if (cspace_sigma) text += fmt::format(" --cspace-sigma {:g}", *cspace_sigma);
-  if (question.corank != 1) text += fmt::format(" --corank {}", question.corank);
-  for (const std::string& requirement : question.require) text += " --require '" + requirement + "'";
-  for (const std::string& definition : question.definitions) text += " -D '" + definition + "'";
   return text;
 }
 

@@ -74,7 +74,8 @@ void check_system(SolveCommand& command, const System& system, bool is_first) {
 }
 
 bool bounds_an_area(const study::Question& question) {
-  return symbolic::definition(question.set).of_parts && analyze::has_plane_of_lengths(question.model);
+  return symbolic::definition(question.set).of_parts &&
+         analyze::is_plane_of_lengths(question.model, question.model.outputs());
 }
 
 // Of a boundary in the plane of two lengths.
@@ -139,8 +140,9 @@ void remove_checkpoint(const SolveCommand& command, const result::Result& result
     std::filesystem::remove(command.checkpoint_path, ignored);
 }
 
-ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& systems, solve::Control& control) {
-  const solve::CostEstimate cost = study::estimate(systems, options_of(command), control);
+ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& systems, const solve::Options& options,
+                        solve::Control& control) {
+  const solve::CostEstimate cost = study::estimate(systems, options, control);
   const int threads =
       command.limits.threads > 0 ? command.limits.threads : static_cast<int>(std::thread::hardware_concurrency());
   if (control.ended()) {
@@ -160,8 +162,9 @@ result::Result& kept(result::Result result) {
 
 // `former`: of a run that goes on.
 ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::Checkpoint* former) {
-  options_of(command).validate();
-  LimitedRun run(limits_of(options_of(command), nullptr));  // reading the model takes its time, too
+  const solve::Options asked = options_of(command);
+  asked.validate();
+  LimitedRun run(limits_of(asked, nullptr));  // reading the model takes its time, too
   solve::Control& control = run.control();
   std::optional<solve::InStage> stage(std::in_place, control, solve::Stage::model);
   study::Question question = load(command.question);
@@ -176,12 +179,12 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   });
   check_output(command.result_path);
   command.json.check();
-  if (command.estimate) return say_estimate(command, systems.of_parts, control);
+  const study::Options options{options_of(command), command.digits};
+  if (command.estimate) return say_estimate(command, systems.of_parts, options.search, control);
   if (!command.checkpoint_path.empty()) result::check_writable(command.checkpoint_path);
   study::RunJournal journal = journal_of(command, former ? *former : checkpoint_of(sub, command));
   control.ended();  // notes the stage
 
-  study::Options options{options_of(command), command.digits};
   ProgressLine line;
   line.follow(control);
   stage.reset();

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
 #include "corank/analyze/aspects/aspects_factor.h"
 #include "corank/analyze/clearance/tolerance_factor.h"
@@ -32,21 +31,12 @@ double radius_of(const std::string& keep) {
   for (const char c : keep)
     if (c != ' ') text += c;
   const std::string start = "clearance>=";
-  std::size_t end = 0;
   double radius = 0;
-  try {
-    if (text.starts_with(start)) radius = std::stod(text.substr(start.size()), &end);
-  } catch (const std::logic_error&) {
-    end = 0;
-  }
-  if (end == 0 || start.size() + end != text.size() || !(radius > 0) || !std::isfinite(radius))
+  if (!text.starts_with(start) || !CLI::detail::lexical_cast(text.substr(start.size()), radius) || !(radius > 0) ||
+      !std::isfinite(radius))
     throw UsageError(
         fmt::format("--keep {}: expected \"clearance>=R\" with a positive number R, \"aspects\", or \"path FILE\"", keep));
   return radius;
-}
-
-std::string factor_line(double lower, std::optional<double> upper) {
-  return upper ? fmt::format("factor in [{:.5g}, {:.5g}]", lower, *upper) : fmt::format("factor at least {:.5g}", lower);
 }
 
 // Of what asks for no ball: `find` makes the factor from a question, a precision and progress.
@@ -65,7 +55,7 @@ ExitStatus find_without_ball(const ToleranceCommand& command, const std::string&
   if (question.model.is_plain_system())
     throw UsageError(fmt::format("{} names no inputs and outputs: a plain system has no {}", command.question.file, what));
   const analyze::FactorProgress progress = [&line](double lower, std::optional<double> upper) {
-    line.show(factor_line(lower, upper));
+    line.show(analyze::factor_words(lower, upper));
   };
   const auto found = find(question, progress, search.threads, run.control());
   line.clear();
@@ -100,7 +90,9 @@ ExitStatus find_factor(ToleranceCommand command) {
   const solve::Options search = command.search();
   LimitedRun run(limits_of(search, nullptr));
   ProgressLine line;
-  command.options.progress = [&line](double lower, std::optional<double> upper) { line.show(factor_line(lower, upper)); };
+  command.options.progress = [&line](double lower, std::optional<double> upper) {
+    line.show(analyze::factor_words(lower, upper));
+  };
   const analyze::ToleranceFactor found =
       analyze::tolerance_factor(command.load(), command.ball(), command.options, search, run.control());
   line.clear();

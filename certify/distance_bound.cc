@@ -6,7 +6,6 @@
 #include "corank/certify/numeric.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/core/box.h"
-#include "corank/core/rounding.h"
 
 namespace corank::certify {
 

@@ -150,9 +150,7 @@ py::tuple tolerance_factor(const Question& question, const analyze::BallOptions&
       [question, about, radius, precision](const solve::Options& limits, solve::Control& control, Watcher& watcher) {
         analyze::ToleranceFactorOptions options{.radius = radius, .precision = precision, .progress = {}};
         options.progress = [&watcher](double lower, std::optional<double> upper) {
-          watcher.show({"tolerance", -1,
-                        upper ? fmt::format("factor in [{:.5g}, {:.5g}]", lower, *upper)
-                              : fmt::format("factor at least {:.5g}", lower)});
+          watcher.show({"tolerance", -1, analyze::factor_words(lower, upper)});
         };
         const analyze::ToleranceFactor f = analyze::tolerance_factor(question, about, options, limits, control);
         return std::tuple(to_json(f), to_table(f));

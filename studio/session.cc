@@ -226,15 +226,15 @@ class Answer {
     if (question_.model.requirements().empty() || cspace == found_.end())
       return say_colours("There are no requirements, or no C-space.", "null");
     try {
-      const std::vector<CoverBox>& boxes = cspace->second.view->drawn();
       study::Question question = question_;
       question.set = SingularitySet::cspace;
-      const std::vector<Standing> standings =
-          analyze::standings_in(question.model, study::equations(question), boxes, [this] { return stop_.load(); });
-      if (stop_) return;
+      const analyze::Standings standings(question.model, study::equations(question));
       report::PageAspects shades;
       shades.labels = {"met", "not met", "open"};
-      for (const Standing standing : standings) shades.places.push_back(static_cast<int>(standing));
+      for (const CoverBox& b : cspace->second.view->drawn()) {
+        if (stop_) return;
+        shades.places.push_back(static_cast<int>(standings.of(b.box)));
+      }
       Json colours = Json::parse(report::aspects_json(shades));
       colours["colours"] = {"#4f9f78", "#9a6a9f", "#dcae3a"};
       say_colours("Requirements, proven box by box:", colours.dump());

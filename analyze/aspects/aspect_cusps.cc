@@ -4,21 +4,17 @@
 
 #include <algorithm>
 
+#include "corank/analyze/aspects/aspect_equations.h"
 #include "corank/analyze/sets/limits.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/core/rounding.h"
 #include "corank/result/values/sentences.h"
 #include "corank/study/answer.h"
-#include "corank/symbolic/sets/algebrizer.h"
-#include "corank/symbolic/sets/cusps_and_nodes.h"
-#include "corank/symbolic/sets/determinant_factors.h"
-#include "corank/symbolic/sets/kernel_scale.h"
 
 namespace corank::analyze {
 namespace {
 
-// `outer`: of each factor of the locus the sign of its function cusp_sides() over the cusp; `places`: of the factors among
-// the cells' functions.
+// `outer`: of each factor of the locus the sign of its function cusp_sides() over the cusp.
 void find_sides(AspectCusp& cusp, const std::vector<int>& outer, const std::vector<std::size_t>& places,
                 const SignCells& cells, const Pieces& pieces) {
   std::vector<int> signs = cells.signs(cusp.at);
@@ -34,29 +30,22 @@ void find_sides(AspectCusp& cusp, const std::vector<int>& outer, const std::vect
   cusp.between = only_piece(cells, pieces, cusp.at, signs);
 }
 
-void add_cusps(study::Question question, std::size_t locus, const symbolic::Loci& loci, const SignCells& cells,
-               const Pieces& pieces, int threads, solve::Control& control, AspectCusps& cusps) {
-  const symbolic::SingularitySet set =
-      locus == 0 ? symbolic::SingularitySet::forward_cusps : symbolic::SingularitySet::inverse_cusps;
-  question.set = set;
+void add_cusps(const CuspEquations& asked, std::size_t locus, const SignCells& cells, const Pieces& pieces, int threads,
+               solve::Control& control, AspectCusps& cusps) {
   study::Options options;
   options.search.threads = threads;
-  const symbolic::TrigonometricSystem equations = study::equations(question);
-  const System system = study::system(question, equations);
-  const result::Result found = study::answer(question, system, options, control);
+  const result::Result found = study::answer(asked.question, asked.system, options, control);
   const std::vector<const CoverBox*> proven = result::proven_cusps(found);
-  const std::vector<symbolic::Expression> sides =
-      symbolic::cusp_sides(question.model, set, symbolic::kernel_scales(question.model, set), loci.factors[locus]);
-  const certify::CompiledSystem compiled(system, symbolic::polynomials(equations, sides));
+  const certify::CompiledSystem compiled(asked.system, asked.sides);
   const UpwardRounding rounding;
   for (const CoverBox* point : proven) {
-    const std::optional<Box> at = same_configuration(system, point->box, cells.system());
+    const std::optional<Box> at = same_configuration(asked.system, point->box, cells.system());
     if (!at) continue;
     AspectCusp cusp{locus == 0, *at};
     std::vector<int> outer;
     for (int k = 0; k < compiled.values(); ++k)
       outer.push_back(sign_of(compiled.evaluate(compiled.value_row(k), point->box)));
-    find_sides(cusp, outer, loci.places[locus], cells, pieces);
+    find_sides(cusp, outer, asked.places, cells, pieces);
     cusps.list.push_back(std::move(cusp));
   }
   cusps.looked_for[locus] = true;
@@ -69,35 +58,39 @@ void add_cusps(study::Question question, std::size_t locus, const symbolic::Loci
 
 const char* locus_name(std::size_t locus) { return locus == 0 ? "forward" : "inverse"; }
 
-AspectCusps aspect_cusps(const study::Question& question, const symbolic::Loci& loci, SignCells& cells, const Pieces& pieces,
-                         int threads, solve::Control& control) {
+AspectCusps aspect_cusps(const AspectEquations& asked, SignCells& cells, const Pieces& pieces, int threads,
+                         solve::Control& control) {
   AspectCusps cusps;
   if (!pieces.exact()) {
     cusps.reasons.emplace_back("the aspects are not exact");
     return cusps;
   }
-  // Cusps are those of the derivative of Φ; another L may be singular elsewhere.
-  if (question.model.has_own_velocity_equation()) {
+  if (asked.question.model.has_own_velocity_equation()) {
     cusps.reasons.emplace_back("the model brings its own velocity equation");
     return cusps;
   }
   for (std::size_t locus = 0; locus < 2; ++locus) {
-    if (loci.factors[locus].empty()) cusps.looked_for[locus] = cusps.all[locus] = true;
-    if (loci.factors[locus].empty() || control.ended()) continue;
+    const std::optional<CuspEquations>& of_locus = asked.cusps[locus];
+    if (!of_locus) cusps.looked_for[locus] = cusps.all[locus] = true;
+    if (!of_locus || control.ended()) continue;
+    std::string reason = of_locus->reason;
     try {
-      add_cusps(question, locus, loci, cells, pieces, threads, control, cusps);
+      if (reason.empty()) add_cusps(*of_locus, locus, cells, pieces, threads, control, cusps);
     } catch (const symbolic::ModelError& error) {
-      cusps.reasons.push_back(fmt::format("{} cusps: {}", locus_name(locus), error.what()));
+      reason = error.what();
     }
+    if (!reason.empty()) cusps.reasons.push_back(fmt::format("{} cusps: {}", locus_name(locus), reason));
   }
   if (control.ended()) cusps.reasons.emplace_back("the analysis was ended by a limit");
   return cusps;
 }
 
-void check_parity(const study::Question& question, int threads, solve::Control& control, AspectCusps& cusps) {
+void check_parity(const study::Question& question, const System& system, int threads, solve::Control& control,
+                  AspectCusps& cusps) {
   if (!cusps.all[0] && !cusps.all[1]) return;
   constexpr std::uint64_t kMostForAHeight = 200'000;
-  const Topology shape = topology(question, {.threads = threads, .most_for_a_height = kMostForAHeight}, control);
+  const Topology shape =
+      topology_of_one(question, system, {.threads = threads, .most_for_a_height = kMostForAHeight}, control);
   if (shape.dimension != 2 || !shape.smooth || !shape.ends.empty() || !shape.euler_characteristic) return;
   cusps.euler_characteristic = shape.euler_characteristic;
   for (std::size_t locus = 0; locus < 2; ++locus) {

@@ -10,11 +10,9 @@
 #include "corank/analyze/pieces/pieces.h"
 #include "corank/study/question.h"
 
-namespace corank::symbolic {
-struct Loci;
-}
-
 namespace corank::analyze {
+
+struct AspectEquations;
 
 /// Near a cusp of a locus' image among the locked coordinates three configurations come together; the locus divides C-space
 /// there in two sides. The outer two of the three lie on one of them, where a path about the cusp joins them, the third on
@@ -43,11 +41,13 @@ const char* locus_name(std::size_t locus);
 /// (symbolic/sets/cusps_and_nodes.h). Theorem: let one function g of the locus alone be 0 at the cusp. All points of C-space
 /// near it lie in the cells that its box meets; where all parts of these with the signs of one side are of one piece, that
 /// side is of it. Which side is which says the sign of symbolic::cusp_sides().
-AspectCusps aspect_cusps(const study::Question& question, const symbolic::Loci& loci, SignCells& cells, const Pieces& pieces,
-                         int threads, solve::Control& control);
+AspectCusps aspect_cusps(const AspectEquations& asked, SignCells& cells, const Pieces& pieces, int threads,
+                         solve::Control& control);
 
 /// Looks at the parity of their numbers, where C-space, of two dimensions, comes to no end, and its Euler characteristic is
 /// found with few boxes. A locus whose number has the other one is no longer known as a whole.
-void check_parity(const study::Question& question, int threads, solve::Control& control, AspectCusps& cusps);
+/// `system`: study::system(question).
+void check_parity(const study::Question& question, const System& system, int threads, solve::Control& control,
+                  AspectCusps& cusps);
 
 }  // namespace corank::analyze

@@ -6,15 +6,13 @@
 // one factor. Its pieces are the products of the pieces of A, B, … without the zeros of their own functions.
 #pragma once
 
+#include "corank/analyze/aspects/aspect_equations.h"
 #include "corank/analyze/aspects/aspects.h"
-#include "corank/symbolic/sets/determinant_factors.h"
 
 namespace corank::analyze {
 
-/// Fills in the numbers and representatives; `equations`: of C-space, whose system `result.system` is. False, and nothing
-/// done: C-space is no such graph, or of two dimensions or less.
-bool count_in_free_coordinates(const study::Question& question, const symbolic::TrigonometricSystem& equations,
-                               const symbolic::Loci& loci, const AspectsOptions& options, solve::Control& control,
+/// Fills in the numbers and representatives. Requires AspectEquations::product.
+void count_in_free_coordinates(const AspectEquations& equations, const AspectsOptions& options, solve::Control& control,
                                Aspects& result);
 
 }  // namespace corank::analyze

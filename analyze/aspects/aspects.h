@@ -72,6 +72,9 @@ struct AspectsOptions {
 /// are asked for of constants with tolerances.
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control);
 
+/// Those of aspects, assembly modes and working modes that are exact.
+ExactNumbers exact_numbers_of(const Aspects& aspects);
+
 /// "10 aspects, 2 assembly modes, 4 working modes", or bounds. Requires that something is known.
 std::string summary(const Aspects& aspects);
 /// What is written of it, for others to check. Requires its cover.

@@ -2,7 +2,7 @@
 // modes and working modes as the one that was drawn.
 //
 // Between the bounds there may be a gap, in which neither was proven: near a robot at which the numbers change the proof of
-// aspects_of_robots.h needs room.
+// same_strata.h needs room.
 #pragma once
 
 #include <string>

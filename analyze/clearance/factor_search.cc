@@ -133,6 +133,10 @@ void search_factor(const study::Question& question,
   bounds.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+std::string factor_words(double lower, std::optional<double> upper) {
+  return upper ? fmt::format("factor in [{:.5g}, {:.5g}]", lower, *upper) : fmt::format("factor at least {:.5g}", lower);
+}
+
 std::string factor_lines(const FactorBounds& f, const std::string& what) {
   std::string text = fmt::format("factor of the tolerances in [{}, {}]\n", rounded(f.lower, false),
                                  f.upper ? rounded(*f.upper, true) : "unknown");

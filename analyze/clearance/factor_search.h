@@ -40,6 +40,8 @@ struct FactorStep {
 };
 
 using FactorProgress = std::function<void(double lower, std::optional<double> upper)>;
+/// "factor in [0.5, 0.75]".
+std::string factor_words(double lower, std::optional<double> upper);
 
 /// Tries factors by doubling and bisection, from 1 on. Where some are open there may be a gap: then both of its ends are
 /// sought, each to the precision. `attempt` gets the question with its tolerances that many times as large; what it throws

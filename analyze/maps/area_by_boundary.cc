@@ -215,12 +215,11 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
   return std::nullopt;
 }
 
-bool has_plane_of_lengths(const symbolic::Mechanism& model) {
-  const auto is_length = [&](const std::string& name) {
-    const int k = model.find_coordinate(name);
-    return k >= 0 && model.coordinates()[k].kind == symbolic::CoordinateKind::length;
-  };
-  return model.outputs().size() == 2 && std::ranges::all_of(model.outputs(), is_length);
+bool is_plane_of_lengths(const symbolic::Mechanism& model, const std::vector<std::string>& names) {
+  return names.size() == 2 && std::ranges::all_of(names, [&](const std::string& name) {
+           const int k = model.find_coordinate(name);
+           return k >= 0 && model.coordinates()[k].kind == symbolic::CoordinateKind::length;
+         });
 }
 
 std::optional<Interval> area(const study::Question& question, int threads, bool anyway, solve::Control& control) {

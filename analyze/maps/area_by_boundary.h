@@ -53,8 +53,8 @@ int membership(const System& configurations, int x, int y, const Interval& cell_
 /// Of a system of configurations (symbolic::configurations) with exact coefficients; x and y are variables of it.
 AreaBounds workspace_area(const System& configurations, int x, int y, const AreaOptions& options = {});
 
-/// Are the model's outputs two lengths?
-bool has_plane_of_lengths(const symbolic::Mechanism& model);
+/// Are these two lengths of the model?
+bool is_plane_of_lengths(const symbolic::Mechanism& model, const std::vector<std::string>& names);
 
 /// Bounds of the same area; where its boundary does not give them, with `anyway` by dividing the plane, which may take long.
 std::optional<Interval> area(const study::Question& question, int threads, bool anyway, solve::Control& control);

@@ -4,6 +4,7 @@
 
 #include "corank/analyze/aspects/aspects.h"
 #include "corank/analyze/clearance/clearance.h"
+#include "corank/analyze/maps/area_by_boundary.h"
 #include "corank/study/answer.h"
 
 namespace corank::analyze {
@@ -22,12 +23,8 @@ bool are_same(std::vector<std::string> a, std::vector<std::string> b) {
 // Over the inputs the forward locus, over the outputs the inverse one.
 bool is_over_inputs(const study::Question& question, const std::vector<std::string>& names) {
   const symbolic::Mechanism& model = question.model;
-  const auto is_length = [&](const std::string& name) {
-    const int k = model.find_coordinate(name);
-    return k >= 0 && model.coordinates()[k].kind == symbolic::CoordinateKind::length;
-  };
   const bool inputs = are_same(model.inputs(), names);
-  if ((!inputs && !are_same(model.outputs(), names)) || !std::ranges::all_of(names, is_length))
+  if ((!inputs && !are_same(model.outputs(), names)) || !is_plane_of_lengths(model, names))
     throw question_error(question, "cusps and nodes are those of a curve over two outputs or two inputs",
                          "a map over all outputs, or all inputs, of a mechanism that has two, both lengths");
   return inputs;

@@ -339,7 +339,7 @@ Path PathFinder::find(const Box& from, const Box& to, solve::Control& control) {
 
 Standing PathFinder::standing(const Box& end) const {
   if (!question().model.toleranced().empty()) return Standing::open;
-  return standing_in(question().model, study::equations(question()), end);
+  return Standings(question().model, study::equations(question())).of(end);
 }
 
 Box PathFinder::end(const std::vector<NamedValue>& values, int mode, const std::string& option,

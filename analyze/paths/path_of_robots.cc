@@ -1,7 +1,6 @@
 #include "corank/analyze/paths/path_of_robots.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebra/exact_value.h"

@@ -190,7 +190,8 @@ std::string PathOfRobots::what_differs(const Box& drawn, const Box& there, const
   const symbolic::TrigonometricSystem equations = study::equations(one);
   Box own;
   for (const Variable& v : study::system(one, equations).variables) own.push_back(there[space_.system().find(v.name)]);
-  return standing_in(one.model, equations, own) == Standing::violated ? "there its path does not meet what is required" : "";
+  return Standings(one.model, equations).of(own) == Standing::violated ? "there its path does not meet what is required"
+                                                                       : "";
 }
 
 PathOfRobots::Failure PathOfRobots::failure_of(const Segment& segment, const Box& there, const Interval& shares,

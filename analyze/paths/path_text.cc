@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "corank/analyze/clearance/json.h"
 #include "corank/analyze/paths/path.h"

@@ -2,7 +2,6 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
 
 #include "corank/core/box.h"
 #include "corank/core/check.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "corank/core/box.h"
 #include "corank/core/check.h"

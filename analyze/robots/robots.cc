@@ -7,7 +7,6 @@
 
 #include "corank/analyze/robots/robots_words.h"
 #include "corank/certify/implied.h"
-#include "corank/result/values/words.h"
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/model/model_file.h"
 

@@ -14,7 +14,7 @@ namespace {
 
 class StrataSearch {
  public:
-  StrataSearch(const System& system, const std::vector<DividingFunction>& functions, const SameStrataOptions& options,
+  StrataSearch(const System& system, const std::vector<Polynomial>& functions, const SameStrataOptions& options,
                solve::Control& control)
       : system_(system), functions_(functions), options_(options), control_(control) {}
 
@@ -39,7 +39,7 @@ class StrataSearch {
  private:
   int size() const { return static_cast<int>(limits_.size() + functions_.size()); }
   bool is_limit(int k) const { return k < static_cast<int>(limits_.size()); }
-  const std::string& name(int k) const { return is_limit(k) ? limits_[k].name : functions_[k - limits_.size()].name; }
+  const std::string& name(int k) const { return is_limit(k) ? limits_[k].name : functions_[k - limits_.size()].source; }
 
   Cover search(const System& system) {
     const solve::Options how{.sigma = solve::kWhole, .threads = options_.threads};
@@ -75,7 +75,7 @@ class StrataSearch {
       if (is_limit(k)) ends.push_back(k);
     System system = ends.empty() ? system_ : strata_->closed(ends);
     for (const int k : chosen)
-      if (!is_limit(k)) system.equations.push_back(functions_[k - limits_.size()].function);
+      if (!is_limit(k)) system.equations.push_back(functions_[k - limits_.size()]);
     return system;
   }
 
@@ -108,7 +108,7 @@ class StrataSearch {
   }
 
   const System& system_;
-  const std::vector<DividingFunction>& functions_;
+  const std::vector<Polynomial>& functions_;
   const SameStrataOptions& options_;
   solve::Control& control_;
   std::vector<Limit> limits_;
@@ -138,7 +138,7 @@ std::optional<std::array<System, 2>> halves(const System& system, const System& 
 }  // namespace
 
 // The hypothesis is one about each point of M: so it may be proven over parts of P.
-std::string obstacle_to_same_strata(const System& system, const std::vector<DividingFunction>& functions,
+std::string obstacle_to_same_strata(const System& system, const std::vector<Polynomial>& functions,
                                     const std::vector<std::string>& own_ends, const SameStrataOptions& options,
                                     solve::Control& control) {
   std::vector<System> waiting{system};

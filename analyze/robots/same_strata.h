@@ -23,11 +23,6 @@
 
 namespace corank::analyze {
 
-struct DividingFunction {
-  Polynomial function;  ///< in the system's variables
-  std::string name;
-};
-
 struct SameStrataOptions {
   int threads = 1;
   int parts = 1;                   ///< of the tolerances, at most: of robots in each the hypothesis is proven by itself
@@ -35,8 +30,8 @@ struct SameStrataOptions {
 };
 
 /// Empty: the hypothesis is proven. Else the condition that is not. `own_ends`: names of limits that are not the same for
-/// all robots; the set may not come to them.
-std::string obstacle_to_same_strata(const System& system, const std::vector<DividingFunction>& functions,
+/// all robots; the set may not come to them. Polynomial::source names a function.
+std::string obstacle_to_same_strata(const System& system, const std::vector<Polynomial>& functions,
                                     const std::vector<std::string>& own_ends, const SameStrataOptions& options,
                                     solve::Control& control);
 

@@ -8,31 +8,19 @@
 
 namespace corank::analyze {
 
-namespace {
-
-Standing standing_of(const symbolic::Requirements& requirements, const std::vector<Polynomial>& functions, const Box& box) {
-  const auto form = [&](int function) { return certify::AffineForm{certify::evaluate(functions[function], box), {}}; };
-  return certify::standing(requirements.of_functions(), form, {});
+Standings::Standings(const symbolic::Mechanism& mechanism, const symbolic::TrigonometricSystem& space) {
+  const symbolic::Requirements requirements(mechanism);
+  requirements_ = requirements.of_functions();
+  functions_ = symbolic::polynomials(space, requirements.functions());
 }
 
-}  // namespace
-
-Standing standing_in(const symbolic::Mechanism& mechanism, const symbolic::TrigonometricSystem& space, const Box& box) {
-  const symbolic::Requirements requirements(mechanism);
-  const std::vector<Polynomial> functions = symbolic::polynomials(space, requirements.functions());
+Standing Standings::of(const Box& box) const {
   const UpwardRounding rounding;
-  return standing_of(requirements, functions, box);
-}
-
-std::vector<Standing> standings_in(const symbolic::Mechanism& mechanism, const symbolic::TrigonometricSystem& space,
-                                   std::span<const CoverBox> boxes, const Ended& ended) {
-  const symbolic::Requirements requirements(mechanism);
-  const std::vector<Polynomial> functions = symbolic::polynomials(space, requirements.functions());
-  const UpwardRounding rounding;
-  std::vector<Standing> standings(boxes.size(), Standing::open);
-  for (std::size_t i = 0; i < boxes.size() && !is_over(ended); ++i)
-    standings[i] = standing_of(requirements, functions, boxes[i].box);
-  return standings;
+  return certify::standing(requirements_,
+                           [&](int k) {
+                             return certify::AffineForm{certify::evaluate(functions_[k], box), {}};
+                           },
+                           {});
 }
 
 }  // namespace corank::analyze

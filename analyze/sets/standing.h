@@ -1,23 +1,25 @@
-// Does a configuration meet the requirements of its mechanism?
+// Do configurations meet the requirements of their mechanism?
 #pragma once
 
-#include <span>
 #include <vector>
 
-#include "corank/core/box.h"
 #include "corank/core/cover.h"
-#include "corank/core/ended.h"
 #include "corank/core/requirement.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::analyze {
 
-/// satisfied: every solution in the box meets all of them; violated: none does. `space`: the equations of its
-/// configurations, whose algebrized system's variables the box has. Throws ModelError as symbolic::Requirements does.
-Standing standing_in(const symbolic::Mechanism& mechanism, const symbolic::TrigonometricSystem& space, const Box& box);
+class Standings {
+ public:
+  /// `space`: the equations of the mechanism's configurations. Throws ModelError as symbolic::Requirements does.
+  Standings(const symbolic::Mechanism& mechanism, const symbolic::TrigonometricSystem& space);
 
-/// The same of each box; once `ended` is true, `open` of those that are left.
-std::vector<Standing> standings_in(const symbolic::Mechanism& mechanism, const symbolic::TrigonometricSystem& space,
-                                   std::span<const CoverBox> boxes, const Ended& ended = {});
+  /// satisfied: every solution in the box meets all of them; violated: none does. In the variables of the algebrized space.
+  Standing of(const Box& box) const;
+
+ private:
+  std::vector<Requirement> requirements_;
+  std::vector<Polynomial> functions_;
+};
 
 }  // namespace corank::analyze

@@ -1,7 +1,5 @@
 #include "corank/analyze/topology/topology.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -278,13 +276,6 @@ std::shared_ptr<const Shape> certificate(const Topology& result, Solved& space, 
                                              result.euler_characteristic, result.genus});
 }
 
-Topology of_one_robot(const study::Question& question, const TopologyOptions& options, solve::Control& control) {
-  Solved space{study::system(question), {}};
-  Topology result = found(question, space, options, control);
-  if (options.certificate) result.certificate = certificate(result, space, control);
-  return result;
-}
-
 ExactNumbers exact_numbers(const Topology& t) {
   ExactNumbers numbers;
   if (t.components.exact()) numbers.emplace_back("components", t.components.at_least);
@@ -299,23 +290,33 @@ Topology of_robots(study::Question question, const TopologyOptions& options, sol
   question = with_common_ranges(std::move(question), own_ends);
   study::Question drawn = question;
   drawn.model = question.model.nominal();
-  Topology result = of_one_robot(drawn, options, control);
+  Topology result = topology_of_one(drawn, study::system(drawn), options, control);
   const System system = study::system(question);
   const auto obstacle = [&](int parts) {
     return obstacle_to_same_strata(system, {}, own_ends, {.threads = options.threads, .parts = parts}, control);
   };
-  const auto numbers = [&](const study::Question& one) { return exact_numbers(of_one_robot(one, options, control)); };
+  const auto numbers = [&](const study::Question& one) {
+    return exact_numbers(topology_of_one(one, study::system(one), options, control));
+  };
   result.robots = examine(question, exact_numbers(result), obstacle, numbers, control);
   return result;
 }
 
 }  // namespace
 
+Topology topology_of_one(const study::Question& question, const System& system, const TopologyOptions& options,
+                         solve::Control& control) {
+  Solved space{system, {}};
+  Topology result = found(question, space, options, control);
+  if (options.certificate) result.certificate = certificate(result, space, control);
+  return result;
+}
+
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control) {
   question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
   question.corank = 1;
   question.tolerance = 0;
-  return question.model.toleranced().empty() ? of_one_robot(question, options, control)
+  return question.model.toleranced().empty() ? topology_of_one(question, study::system(question), options, control)
                                              : of_robots(std::move(question), options, control);
 }
 

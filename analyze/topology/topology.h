@@ -75,6 +75,10 @@ struct TopologyOptions {
 /// is asked for of constants with tolerances.
 Topology topology(study::Question question, const TopologyOptions& options, solve::Control& control);
 
+/// Of the configurations of one robot; `system`: study::system(question), of the set cspace.
+Topology topology_of_one(const study::Question& question, const System& system, const TopologyOptions& options,
+                         solve::Control& control);
+
 /// What is written of it, for others to check. Requires its certificate.
 result::ShapeFile to_file(const study::Question& question, const Topology& topology);
 

@@ -5,7 +5,6 @@
 #include "corank/kinematics/language/part_grammar.h"
 #include "corank/symbolic/model/expression_actions.h"
 #include "corank/symbolic/model/expression_words.h"
-#include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/model/parse_text.h"
 
 namespace corank::kinematics {
@@ -321,12 +320,6 @@ void parse_more(Robot& robot, std::string_view text, const std::string& file) {
   parse_text(text, builder);
   builder.finish();
   robot = std::move(builder.robot);
-}
-
-Robot read_part_file(const std::filesystem::path& path) {
-  const std::string text = symbolic::read_text(path);
-  const std::filesystem::path folder = path.parent_path();
-  return parse_parts(text, path.string(), folder.empty() ? std::filesystem::path(".") : folder);
 }
 
 }  // namespace corank::kinematics

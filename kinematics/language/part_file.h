@@ -29,8 +29,4 @@ Robot parse_parts(std::string_view text, const std::string& file,
 /// [LOOPS]), inputs, outputs. The first link may be called ground. INCLUDE is refused, other files count as missing.
 void parse_more(Robot& robot, std::string_view text, const std::string& file);
 
-/// Reads a file; the robot is named after it ("models/platforms/delta.cuik" → "delta"). Throws ModelError where it can't
-/// be read.
-Robot read_part_file(const std::filesystem::path& path);
-
 }  // namespace corank::kinematics

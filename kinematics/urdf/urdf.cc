@@ -4,7 +4,6 @@
 
 #include "corank/kinematics/language/part_file.h"
 #include "corank/kinematics/urdf/urdf_reading.h"
-#include "corank/symbolic/model/model_file.h"
 
 namespace corank::kinematics {
 namespace {
@@ -30,12 +29,6 @@ Robot parse_urdf(std::string_view text, const std::string& file, const std::opti
     robot.notices.push_back("no <transmission> says which joints are actuated; list them in [INPUTS] of a .loops file");
   robot.validate();
   return robot;
-}
-
-Robot read_urdf(const std::filesystem::path& urdf, const std::optional<std::filesystem::path>& loops) {
-  const std::string text = symbolic::read_text(urdf);
-  if (!loops) return parse_urdf(text, urdf.string());
-  return parse_urdf(text, urdf.string(), UrdfLoops{symbolic::read_text(*loops), loops->string()});
 }
 
 }  // namespace corank::kinematics

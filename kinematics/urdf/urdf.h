@@ -33,7 +33,4 @@ struct UrdfLoops {
 /// whatever the text.
 Robot parse_urdf(std::string_view text, const std::string& file, const std::optional<UrdfLoops>& loops = {});
 
-/// Reads a URDF file and its companion.
-Robot read_urdf(const std::filesystem::path& urdf, const std::optional<std::filesystem::path>& loops = {});
-
 }  // namespace corank::kinematics

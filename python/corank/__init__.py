@@ -16,16 +16,13 @@ from .analyses import (
     Analysis,
     Aspects,
     AspectsFactor,
-    BestCenter,
     Bounds,
-    Clearance,
-    ClearanceMap,
     Cusp,
     Factor,
     PathFactor,
-    ToleranceFactor,
     Topology,
 )
+from .clearing import BestCenter, Clearance, ClearanceMap, ToleranceFactor
 from .errors import Interrupted, ModelError, OptionError, ResultFileError
 from .expression import as_expression, as_relation, cos, degrees, linspace, pi, sin, sqrt, tan
 from .live import Studio

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import numbers
 from fractions import Fraction
-from typing import Any, List, Union
+from typing import Any, List, Mapping, Sequence, Tuple, Union
 
 from . import _corank
 from ._corank import Expression, Relation
@@ -16,6 +16,8 @@ ExpressionLike = Union[Expression, str, int, float, Fraction, Any]
 #: What can be given as an equation or an inequality: ``a == b`` of corank's expressions, a text such as "a = b" or "a <= b",
 #: a relation of SymPy, or an expression e, which means e = 0.
 RelationLike = Union[Relation, str, Any]
+#: A lower and an upper end.
+RangeLike = Union[Tuple[ExpressionLike, ExpressionLike], Sequence[ExpressionLike]]
 
 
 def as_expression(value: ExpressionLike) -> Expression:
@@ -152,3 +154,7 @@ def constant_text(value: ExpressionLike) -> str:
 def text_of(value: ExpressionLike) -> str:
     """Returns the value as a text of the model language."""
     return str(as_expression(value))
+
+
+def _ranges(ranges: Mapping[str, RangeLike]) -> List[Tuple[str, Expression, Expression]]:
+    return [(name, as_expression(lower), as_expression(upper)) for name, (lower, upper) in ranges.items()]

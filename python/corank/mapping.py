@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _corank
-from .analyses import Analysis, RangeLike, _ranges
+from .analyses import Analysis
 from .errors import Interrupted, deliver
-from .expression import ExpressionLike, as_expression
+from .expression import ExpressionLike, RangeLike, _ranges, as_expression
 from .optional import require
 from .options import ask
 from .progress import ProgressOption, Shown

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Sequence, Union
 
-from . import _corank, analyses, live, mapping, notebook, pages, pathing, posturing, result, sweeping
+from . import _corank, analyses, clearing, live, mapping, notebook, pages, pathing, posturing, result, sweeping
 from ._corank import Expression
 from .errors import deliver
 from .expression import ExpressionLike, RelationLike, as_expression, as_relation, constant_text, pi
@@ -337,14 +337,14 @@ class Mechanism:
             )
         return deliver(analyses.Aspects(json, text, file), raised)
 
-    clearance = analyses.clearance
-    tolerance_factor = analyses.tolerance_factor
+    clearance = clearing.clearance
+    tolerance_factor = clearing.tolerance_factor
     aspects_factor = analyses.aspects_factor
     path_factor = analyses.path_factor
     postures = posturing.postures
     cuspidal = posturing.cuspidal
-    best_center = analyses.best_center
-    clearance_map = analyses.clearance_map
+    best_center = clearing.best_center
+    clearance_map = clearing.clearance_map
     area = analyses.area
     map = mapping.map
     path = pathing.path

@@ -1,7 +1,5 @@
 #include "corank/solve/step/stratum.h"
 
-#include <cmath>
-
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/solve/step/heuristics.h"
 

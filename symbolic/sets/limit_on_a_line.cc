@@ -3,7 +3,6 @@
 #include <string>
 
 #include "corank/core/exact_number.h"
-#include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
 
 namespace corank::symbolic {

@@ -253,7 +253,7 @@ TEST(AspectCusps, OfTheOtherParityAreNotSaidToBeAll) {
   solve::Control control;
   study::Question cspace = arm;
   cspace.set = symbolic::SingularitySet::cspace;
-  check_parity(cspace, 1, control, cusps);
+  check_parity(cspace, study::system(cspace), 1, control, cusps);
   EXPECT_EQ(cusps.all, (std::array{true, false}));
   ASSERT_EQ(cusps.reasons.size(), 1u);
   EXPECT_NE(cusps.reasons[0].find("inverse cusps: their number, 3, does not have the parity"), std::string::npos);

@@ -177,7 +177,7 @@ TEST(Tensions, AreLikeAMotorsEffortUnderAWeight) {
     const symbolic::TrigonometricSystem space = study::equations(question);
     const System system = study::system(question, space);
     Box box(system.size(), Interval(0.0));
-    return standing_in(question.model, space, box);
+    return Standings(question.model, space).of(box);
   };
   EXPECT_EQ(standing("force(d) <= 5 under force(x) = -6, force(x) <= 3"), Standing::satisfied) << "9/2";
   EXPECT_EQ(standing("force(d) <= 4 under force(x) = -6, force(x) <= 3"), Standing::violated);

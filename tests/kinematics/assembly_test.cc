@@ -11,6 +11,7 @@
 #include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/writing/printer.h"
 #include "corank/tests/kinematics/assembled.h"
+#include "corank/tests/kinematics/read_robot.h"
 
 namespace corank::kinematics {
 namespace {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "corank/kinematics/language/part_file.h"
+#include "corank/tests/kinematics/read_robot.h"
 
 namespace corank::kinematics {
 namespace {

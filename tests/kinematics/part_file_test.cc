@@ -10,6 +10,7 @@
 
 #include "corank/kinematics/equations/assembly.h"
 #include "corank/kinematics/language/part_grammar.h"
+#include "corank/tests/kinematics/read_robot.h"
 
 namespace corank::kinematics {
 namespace {

@@ -14,6 +14,7 @@
 #include "corank/kinematics/equations/assembly.h"
 #include "corank/kinematics/language/part_file.h"
 #include "corank/tests/cuik/suite_files.h"
+#include "corank/tests/kinematics/read_robot.h"
 #include "corank/tests/seeds.h"
 
 namespace corank::kinematics {

@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 
+#include "corank/tests/kinematics/read_robot.h"
 #include "corank/tests/kinematics/transform.h"
 #include "corank/tests/seeds.h"
 

@@ -7,6 +7,7 @@
 #include "corank/kinematics/equations/assembly.h"
 #include "corank/kinematics/language/part_file.h"
 #include "corank/symbolic/velocity/velocity_equation.h"
+#include "corank/tests/kinematics/read_robot.h"
 #include "corank/tests/robots/numeric_mechanism.h"
 
 namespace corank {

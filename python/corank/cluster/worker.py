@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _corank
-from ..analyses import _ranges
-from ..expression import as_expression
+from ..expression import _ranges, as_expression
 from ..options import ask
 
 
