@@ -11,7 +11,7 @@
 
 #include "corank/certify/compiled_system.h"
 #include "corank/certify/self_motion.h"
-#include "corank/core/box.h"
+#include "corank/core/cover.h"
 
 namespace corank::solve {
 
