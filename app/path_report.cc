@@ -5,6 +5,7 @@
 
 #include "corank/app/set_search.h"
 #include "corank/report/pictures/set_look.h"
+#include "corank/result/files/result_file.h"
 
 namespace corank::app {
 namespace {

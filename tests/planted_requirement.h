@@ -104,9 +104,13 @@ inline std::vector<SecondOrderCase> second_order_cases() {
       3, {{-1, -1}, {-1, 0}, {0, {}}, {-1, 0}, {-1, -1}, {-1, 1}}, {}, {{{0, 1}, 1}}, ExactNumber::rational("1.05")};
   // (1 + δ1) x = y/2: |x| < 2 |y| is 1/2 < 2 (1 + δ1).
   const VelocityTest slow{2, {{0, {}}, {-1, ExactNumber::rational("-1/2")}}, {-1, 4}, {}, {}};
+  // x = 1/2 + δ1, y = 1/10 + δ1: |x| < |y| at δ1 = −1, not at 0, though x − y = 2/5 everywhere.
+  const VelocityTest turned{3, {{-1, 1}, {0, {}}, {-1, 0}, {-1, 0}, {1, {}}, {-1, 1}}, {}, {{{0}, 1}}, 1};
+  const PlantedRequirement::Entry half{-0.5, {-1, 0}, 0}, tenth{-0.1, {-1, 0}, 0};
   return {{form, {first, second}, 0.8, Standing::open}, {form, {first, second}, 0.6, Standing::satisfied},
           {norm, {first}, 0.5, Standing::open},         {norm, {first}, 0.3, Standing::satisfied},
-          {slow, {beside_one}, 0.9, Standing::open},    {slow, {beside_one}, 0.5, Standing::satisfied}};
+          {slow, {beside_one}, 0.9, Standing::open},    {slow, {beside_one}, 0.5, Standing::satisfied},
+          {turned, {half, tenth}, 1, Standing::open},   {turned, {half, tenth}, 0.05, Standing::violated}};
 }
 
 /// How often `standing(planted)` was decided, and contradicted by a sample.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "corank/analyze/aspects/aspects_of_robots.h"
 #include "corank/analyze/clearance/json.h"
 #include "corank/analyze/robots/robots_words.h"
 

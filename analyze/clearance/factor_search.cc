@@ -8,6 +8,7 @@
 
 #include "corank/core/exact_number.h"
 #include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/parameters.h"
 
 namespace corank::analyze {

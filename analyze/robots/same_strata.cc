@@ -116,7 +116,7 @@ class StrataSearch {
   std::optional<certify::Strata> strata_;
 };
 
-// The halves of the tolerance that is widest, relative to what it was.
+// The halves of the tolerance that is widest, relative to what it was; nothing where doubles divide it no further.
 std::optional<std::array<System, 2>> halves(const System& system, const System& whole) {
   int widest = -1;
   const auto share = [&](int j) { return system.variables[j].domain.width() / whole.variables[j].domain.width(); };
@@ -126,6 +126,7 @@ std::optional<std::array<System, 2>> halves(const System& system, const System& 
   std::array<System, 2> parts{system, system};
   const Variable& v = system.variables[widest];
   const ExactNumber middle = ExactNumber::dyadic(v.domain.mid());
+  if ((middle - v.lower).sign() != 1 || (v.upper - middle).sign() != 1) return std::nullopt;
   for (std::size_t k = 0; k < 2; ++k) {
     Variable& part = parts[k].variables[widest];
     part = Variable(v.name, v.kind, k == 0 ? v.lower : middle, k == 0 ? middle : v.upper);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "corank/analyze/paths/path.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/analyze/map_files.h"
 #include "corank/tests/analyze/required_robots.h"
 #include "corank/tests/analyze/segment_distance.h"

@@ -1,5 +1,6 @@
 // Requirements over a plane and in balls, against kinematics of their own: nothing is claimed that a random place, or a
 // random robot within tolerances, contradicts. The files of maps.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <random>
 
 #include "corank/analyze/clearance/clearance.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/analyze/map_files.h"
 #include "corank/tests/analyze/required_robots.h"
 #include "corank/tests/seeds.h"

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "corank/core/interval.h"
 #include "corank/core/rounding.h"
 
 namespace corank::certify::adversary {

@@ -289,7 +289,7 @@ std::string text(const Point& x) {
 
 // The claims of a cover, for one choice of the coefficients. Empty: none is refuted.
 std::string refuted(const System& system, const Cover& cover, const Doubles& f, std::mt19937& random) {
-  constexpr double kSlack = 1e-7, kMultipleRoot = 1e-5, kDeep = 1e-4;
+  constexpr double kSlack = 1e-7, kMultipleRoot = 1e-5, kOrderFour = 1e-3, kDeep = 1e-4;
   std::uniform_real_distribution<double> unit(0, 1);
   const auto within = [&](const Interval& side) { return side.lo() + unit(random) * (side.hi() - side.lo()); };
   std::vector<int> all;
@@ -298,8 +298,19 @@ std::string refuted(const System& system, const Cover& cover, const Doubles& f, 
     Point x;
     for (const auto& v : system.variables) x.push_back(within(v.domain));
     if (!refine(f, all, x) || !(depth(system, f, x) > kDeep)) continue;
-    if (std::none_of(cover.boxes.begin(), cover.boxes.end(), [&](const CoverBox& b) { return holds(b, x, kMultipleRoot); }))
-      return "lost " + text(x);
+    const auto held = [&](const Point& y) {
+      return std::ranges::any_of(cover.boxes, [&](const CoverBox& b) { return holds(b, y, kMultipleRoot); });
+    };
+    // A root of order four is found only to (1e-13)^(1/4): Newton's method begins again in a box so near.
+    const auto is_found_from = [&](const CoverBox& b) {
+      Point y = x;
+      for (int j : all) {
+        const Interval& side = b.box[static_cast<std::size_t>(j)];
+        y[static_cast<std::size_t>(j)] = std::clamp(y[static_cast<std::size_t>(j)], side.lo(), side.hi());
+      }
+      return holds(b, x, kOrderFour) && refine(f, all, y) && held(y);
+    };
+    if (!held(x) && std::ranges::none_of(cover.boxes, is_found_from)) return "lost " + text(x);
   }
   for (int k = 0; k < 40 && !cover.boxes.empty(); ++k) {
     const CoverBox& box = cover.boxes[std::uniform_int_distribution<std::size_t>(0, cover.boxes.size() - 1)(random)];
