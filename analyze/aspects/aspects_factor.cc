@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "corank/analyze/aspects/aspects_of_robots.h"
 #include "corank/analyze/clearance/json.h"
 #include "corank/analyze/robots/robots_words.h"
 
