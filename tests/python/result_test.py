@@ -39,6 +39,20 @@ def test_boxes_are_no_wider_than_sigma(forward):
     assert widths.max() <= 0.05 and forward.sigma == (0.05, 0.05)
 
 
+def test_sheets_of_a_surface_stay_whole_until_they_are_cut(dextar, tmp_path):
+    whole, curve = dextar.solve("cspace"), dextar.solve("forward")
+    assert max(whole.sigma) == numpy.inf and max(curve.sigma) < 0.1
+    cut = whole.cut(0.2)
+    assert cut.complete and cut.sigma == (0.2, 0.2) and len(cut) > 2 * len(whole)
+    assert (cut["J3x"][:, 1] - cut["J3x"][:, 0]).max() <= 0.2
+    assert cut.verify().verified
+    by_default = dextar.solve("cspace", surfaces_whole=False)
+    assert max(by_default.sigma) < 0.2
+    whole.portrait(tmp_path / "whole.svg", "J3x", "J3y")
+    whole.cut().portrait(tmp_path / "cut.svg", "J3x", "J3y")
+    assert (tmp_path / "whole.svg").read_text() == (tmp_path / "cut.svg").read_text()
+
+
 def test_samples_of_the_curve_lie_in_boxes(forward):
     """J2, J3, J4 aligned: theta3 = theta4 + pi, or theta3 = theta4, with the loop closed."""
     l, d = 0.9, 1.18
