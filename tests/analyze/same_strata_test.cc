@@ -7,11 +7,11 @@
 namespace corank::analyze {
 namespace {
 
-// A tolerance of a few units of the last digit, and a function whose zeros are smooth for no robot.
+// A tolerance of a few units of the last digit, whose end is no double, and a function whose zeros are smooth for no robot.
 TEST(SameStrata, AToleranceIsHalvedUntilDoublesDivideItNoFurther) {
   test::SystemBuilder builder;
   const int x = builder.variable("x", "-1", "1"), y = builder.variable("y", "-1", "1"),
-            p = builder.variable("p", "1", "4503599627370499/4503599627370496", VariableKind::parameter);
+            p = builder.variable("p", "1", "3000000000000001/3000000000000000", VariableKind::parameter);
   builder.equation({{"1", {{y, 1}}}, {"-1", {{x, 1}, {p, 1}}}});
   const std::vector<Polynomial> functions{test::SystemBuilder::polynomial({{"1", {{x, 2}}}})};
   solve::Control control;
