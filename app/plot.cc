@@ -54,8 +54,7 @@ report::PictureSource read_source(const PlotCommand& command, const std::string&
   result::Result& result = results.emplace_back(result::read_result(path, reading));
   if (study::is_whole(result)) {
     run.enter("cutting the sheets");
-    result = study::cut_for_picture(result::read_result(path), 0, run.control());
-    run.enter("drawing the picture");
+    result = study::cut(result::read_result(path), {.threads = 0}, run.control());
   }
   return report::picture_view(result, path);
 }

@@ -79,16 +79,19 @@ std::optional<report::PageAspects> aspects_of(const ReportCommand& command, cons
 
 /// What a stranger's result says of its variables has to be so before a picture relies on it.
 report::SetView read_one(const std::string& path) {
-  result::Result result = result::read_result(path);
+  result::Result result = result::read_result(path, {.free = false});
   const symbolic::Mechanism mechanism = result::model_of(result);
   System system = result::system_of(mechanism, result);
   auto contradictions = result::contradictions(result, system, symbolic::to_cuik(system));
   for (std::string& c : result::contradictions_of_parts(mechanism, result)) contradictions.push_back(std::move(c));
   if (!contradictions.empty())
     throw result::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
-  result::describe_in_words(mechanism, system, result);
-  solve::Control control;
-  result = study::cut_for_picture(std::move(result), 0, control);
+  if (study::is_whole(result)) {
+    solve::Control control;
+    result = study::cut(result::read_result(path), {.threads = 0}, control);
+  } else {
+    result::describe_in_words(mechanism, system, result);
+  }
   return report::set_view(std::move(result), std::move(system), mechanism.has_own_velocity_equation());
 }
 

@@ -50,7 +50,6 @@ void check_given(const CLI::App& sub, const char* option, const auto& may_be_giv
 }  // namespace
 
 void check_refine(const CLI::App& sub) {
-  if (given(sub, "--resume")) throw UsageError("--refine: expected no --resume beside it");
   check_given(sub, "--refine", [](const std::string& name) { return is_among(kOfRefine, name); });
   if (!given(sub, "-o")) throw UsageError("--refine: expected -o NEW.h5 beside it");
 }

@@ -202,15 +202,15 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
 // Cuts the sheets of a former result.
 ExitStatus refine(const CLI::App& sub, const SolveCommand& command) {
   check_refine(sub);
-  options_of(command).validate();
+  solve::Options options = options_of(command);
+  options.surfaces_whole = false;
+  options.validate();
   check_output(command.result_path);
   command.json.check();
-  LimitedRun run(limits_of(options_of(command), nullptr));
+  LimitedRun run(limits_of(options, nullptr));
   solve::Control& control = run.control();
   ProgressLine line;
   line.follow(control);
-  solve::Options options = options_of(command);
-  options.surfaces_whole = false;
   const result::Result& result = kept(study::cut(result::read_result(command.refine_path), options, control));
   write_file(command.result_path, result, control);
   line.clear();

@@ -163,7 +163,7 @@ const result::Result& Result::drawn() const {
   std::call_once(drawn_->once, [this] {
     if (!study::is_whole(*value_)) return;
     solve::Control control;
-    drawn_->value = study::cut_for_picture(*value_, 0, control);
+    drawn_->value = study::cut(*value_, {.threads = 0}, control);
   });
   return drawn_->value ? *drawn_->value : *value_;
 }

@@ -34,7 +34,8 @@ class Result {
   const std::shared_ptr<const result::Result>& shared() const { return value_; }
   std::shared_ptr<const BoxArrays> boxes() const { return arrays(value_->cover.boxes, boxes_); }
   std::shared_ptr<const BoxArrays> points() const { return arrays(value_->cover.points, points_); }
-  /// study::cut_for_picture of it, made once; without the interpreter's lock. Copies share it, and it lives as long as they.
+  /// For a picture: cut where study::is_whole(), once; without the interpreter's lock. Copies share it, and it lives as long
+  /// as they.
   const result::Result& drawn() const;
 
  private:

@@ -150,16 +150,20 @@ std::optional<VelocityBlocks> type_blocks(const Question& q) {
   return symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
 }
 
+void label(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks,
+           const solve::Prepared& prepared, Cover& cover, solve::Control& control) {
+  if (!blocks) return;
+  solve::label_types(prepared, *blocks, cover, control);
+  if (const auto type = symbolic::definition(set).type) solve::keep_only(*type, cover);
+}
+
 void settle(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks, const Options& options,
             const Asked& asked, Cover& cover, solve::Control& control) {
   const solve::Prepared& prepared = asked.prepared;
   cover.statistics.processed += asked.processed_before;
   control.keep(static_cast<std::int64_t>(solve::bytes_of(cover, control.limits().later_bytes)));
   solve::prove_exactly(prepared, cover, control);
-  if (blocks) {
-    solve::label_types(prepared, *blocks, cover, control);
-    if (const auto type = symbolic::definition(set).type) solve::keep_only(*type, cover);
-  }
+  label(set, blocks, prepared, cover, control);
   if (options.digits > 0 && cover.dimension == 0) solve::prove_decimals(prepared, options.digits, cover, control);
 }
 

@@ -9,6 +9,7 @@
 #include "corank/result/values/sentences.h"
 #include "corank/solve/search/box_labels.h"
 #include "corank/solve/search/recut.h"
+#include "corank/study/search_steps.h"
 
 namespace corank::study {
 namespace {
@@ -28,11 +29,8 @@ void cut_one(const symbolic::Mechanism& model, const solve::Options& options, so
   }
   solve::bound_kernel_dimensions(prepared, cover, control);
   solve::prove_passages(prepared, cover, control);
-  if (blocks) {
-    solve::label_types(prepared, *blocks, cover, control);
-    if (const auto type = symbolic::definition(result.set).type) solve::keep_only(*type, cover);
-    cover.types.left_out += left_out;
-  }
+  label(symbolic::singularity_set_from_string(result.set), blocks, prepared, cover, control);
+  cover.types.left_out += left_out;
   result.options.sigma = cover.sigma;
   result::describe_in_words(model, system, result);
 }
@@ -43,7 +41,7 @@ bool is_whole(const result::Result& result) {
   const auto is_sheet = [](const CoverBox& box) {
     return box.verdict == Verdict::regular || box.verdict == Verdict::boundary;
   };
-  return std::isinf(result.cover.sigma.largest()) && result.cover.dimension > 0 &&
+  return std::isinf(result.cover.sigma.largest()) && result.cover.dimension > 0 && result.options.tolerance == 0 &&
          std::ranges::any_of(result.cover.boxes, is_sheet);
 }
 
@@ -61,11 +59,6 @@ result::Result cut(result::Result result, const solve::Options& options, solve::
   result::merge_parts(result);
   result::describe_in_words(model, result::system_of(model, result), result);
   return result;
-}
-
-result::Result cut_for_picture(result::Result result, int threads, solve::Control& control) {
-  if (!is_whole(result) || result.options.tolerance > 0) return result;
-  return cut(std::move(result), {.threads = threads}, control);
 }
 
 }  // namespace corank::study

@@ -7,15 +7,12 @@
 
 namespace corank::study {
 
-/// Are its sheets whole, wider than a picture of them should show?
+/// Are its sheets whole, wider than a picture of them should show, and can they be cut?
 bool is_whole(const result::Result& result);
 
 /// The same set in boxes no wider than the options' σ, by default a share of the set's size (solve::recut), with their
 /// labels. A proof of completeness stays behind. Throws result::ResultFileError where the equations' coefficients carry a
 /// tolerance, so that the search itself depends on σ, or where another version of corank has made the result.
 result::Result cut(result::Result result, const solve::Options& options, solve::Control& control);
-
-/// Cut for a picture where is_whole() and it can be; else as it is.
-result::Result cut_for_picture(result::Result result, int threads, solve::Control& control);
 
 }  // namespace corank::study

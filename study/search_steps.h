@@ -26,6 +26,9 @@ result::Result finish(const Question& question, const System& system, const Opti
 
 /// What types of singularity are read off, to label boxes with them (solve::label_types); nothing where they get none.
 std::optional<VelocityBlocks> type_blocks(const Question& question);
+/// Labels types, where there are blocks, and keeps those of the set's own type.
+void label(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks,
+           const solve::Prepared& prepared, Cover& cover, solve::Control& control);
 /// Proves exactly what can be, labels types, finds decimals. Like solve::prepare and solve::solve it knows no model, whose
 /// algebra is for one thread alone: several threads may settle covers at once.
 void settle(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks, const Options& options,

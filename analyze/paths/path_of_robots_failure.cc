@@ -5,6 +5,7 @@
 
 #include "corank/analyze/paths/path_of_robots.h"
 #include "corank/analyze/sets/standing.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/model/model_file.h"
 
@@ -208,8 +209,7 @@ PathOfRobots::Failure PathOfRobots::failure_of(const Segment& segment, const Box
 
 std::vector<SolutionFamily::Cell> PathOfRobots::from_drawn(Segment& segment, const Box& drawn, double share,
                                                            const solve::Control& control) {
-  Values near;
-  for (const Interval& side : drawn) near.push_back(side.mid());
+  Values near = midpoint(drawn);
   near.push_back(0);
   std::vector<SolutionFamily::Cell> cells;
   int effort = kEffortOfSegment;

@@ -6,7 +6,6 @@
 
 #include "corank/core/box.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/search/passes.h"
 #include "corank/solve/store/journal.h"
 #include "corank/solve/store/strata.h"
 
@@ -114,9 +113,9 @@ Cover recut(const Prepared& prepared, Cover cover, Control& control) {
   const UpwardRounding rounding;
   std::vector<ExactPoint> exact_points = std::move(cover.exact_points);
   SearchState state = StateOfCover(prepared, control).of(std::move(cover));
-  state.first = state.pass = {{}, first_pass(prepared).postpone};
   Cover result = solve_on(prepared, control, nullptr, std::move(state));
   result.exact_points = std::move(exact_points);
+  result.proof.reset();  // of the cutting alone, where the options ask for one
   return result;
 }
 

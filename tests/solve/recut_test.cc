@@ -85,6 +85,7 @@ TEST(Recut, TakesTheDefaultOfSigmaFromTheSet) {
 
 TEST(Recut, OfACurveThatIsCutAlreadyMakesNarrowerBoxes) {
   const System system = lemniscate();
+  EXPECT_FALSE(cut_to(system, solve(system, {.proof = true}), {.sigma = 0.01, .proof = true}).proof);
   const Cover first = solve(system, {.surfaces_whole = true}), finer = cut_to(system, first, {.sigma = 0.002});
   EXPECT_TRUE(std::isfinite(first.sigma.length)) << "curves are cut";
   EXPECT_GT(finer.boxes.size(), 2 * first.boxes.size());
