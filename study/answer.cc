@@ -189,7 +189,8 @@ result::Result describe(const Question& question, const System& system, const Op
     result.outputs = question.model.outputs();
   result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   describe_corank(system, result);
-  if (question.assembly) describe_states(*question.assembly, result);
+  const auto* component = question.part ? std::get_if<symbolic::Component>(&*question.part) : nullptr;
+  if (question.assembly && !(component && component->factor)) describe_states(*question.assembly, result);
   return result;
 }
 

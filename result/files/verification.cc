@@ -272,10 +272,16 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
                               [](const symbolic::SetPart& a, const Result& b) { return text(a) == b.part; });
   if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
   std::vector<std::string> list;
-  for (const Result& part : result.parts) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Result& part = result.parts[i];
     if (is_boundary && part.outputs != model.outputs())
       list.push_back("(part: " + part.part + ") the outputs are not those of the model");
-    if (part.variables.size() < result.variables.size() || part.set != result.set) return {"a part is of another set"};
+    if (part.set != result.set) return {"a part is of another set"};
+    const System system = symbolic::SetEquations(model, *set, expected[i]).compiled(part.options.kernel_scales);
+    const std::vector<std::string> free = free_coordinates(model, system, true);
+    for (const std::string& name : part.free_coordinates)
+      if (std::ranges::find(free, name) == free.end())
+        list.push_back(fmt::format("(part: {}) {} is not free", part.part, name));
   }
   Result merged = result;
   merge_parts(merged);

@@ -8,14 +8,29 @@
 namespace corank::result {
 namespace {
 
-// Its configuration alone: what is proven of it stays with the part.
-CoverBox of_whole(const CoverBox& box, std::size_t variables, int part) {
+// Which of the part's variables each of the whole's is; −1: the part leaves it out.
+std::vector<int> places(const Result& whole, const Result& part) {
+  std::vector<int> list;
+  for (const ResultVariable& v : whole.variables) {
+    const auto at = std::ranges::find(part.variables, v.name, &ResultVariable::name);
+    list.push_back(at == part.variables.end() ? -1 : static_cast<int>(at - part.variables.begin()));
+  }
+  return list;
+}
+
+// Its configuration alone: what is proven of it stays with the part. What that leaves out may be all that it can.
+CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part) {
   CoverBox result;
-  result.box.assign(box.box.begin(), box.box.begin() + static_cast<std::ptrdiff_t>(variables));
-  result.verdict = box.verdict;
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    const int own = places[v];
+    result.box.push_back(own < 0 ? whole.variables[v].domain : box.box[own]);
+    if (std::ranges::find(box.free, own) != box.free.end()) result.free.push_back(static_cast<int>(v));
+  }
+  // Over all values of what is left out, a point is a smooth piece.
+  const bool is_point = box.verdict == Verdict::isolated || box.verdict == Verdict::exact;
+  const bool leaves_out = std::ranges::find(places, -1) != places.end();
+  result.verdict = is_point && leaves_out ? Verdict::regular : box.verdict;
   result.reason = box.reason;
-  for (const int v : box.free)
-    if (v < static_cast<int>(variables)) result.free.push_back(v);
   result.passage = box.passage;
   result.side = box.side;
   result.part = part;
@@ -58,9 +73,19 @@ symbolic::Mechanism model_of(const Result& result) {
   return model;
 }
 
+std::vector<std::string> left_out(const Result& part) {
+  std::vector<std::string> list = part.free_coordinates;
+  std::erase_if(list, [&](const std::string& name) {
+    return std::ranges::find(part.variables, name, &ResultVariable::name) != part.variables.end() ||
+           std::ranges::find(part.angles, name, &Angle::name) != part.angles.end();
+  });
+  return list;
+}
+
+int dimension_of(const Result& result) { return result.cover.dimension + static_cast<int>(left_out(result).size()); }
+
 void merge_parts(Result& whole) {
   CORANK_CHECK(!whole.parts.empty());
-  const std::size_t n = whole.variables.size();
   Cover cover;
   cover.sigma = {0, 0};
   cover.tolerance = whole.parts.front().cover.tolerance;
@@ -71,11 +96,11 @@ void merge_parts(Result& whole) {
   const bool some_searched = std::ranges::any_of(whole.parts, is_searched);
   for (std::size_t i = 0; i < whole.parts.size(); ++i) {
     const Result& part = whole.parts[i];
-    CORANK_CHECK(part.variables.size() >= n);
-    for (const CoverBox& box : part.cover.boxes) cover.boxes.push_back(of_whole(box, n, static_cast<int>(i)));
-    for (const CoverBox& box : part.cover.points) cover.points.push_back(of_whole(box, n, static_cast<int>(i)));
+    const std::vector<int> from = places(whole, part);
+    for (const CoverBox& box : part.cover.boxes) cover.boxes.push_back(of_whole(box, from, whole, static_cast<int>(i)));
+    for (const CoverBox& box : part.cover.points) cover.points.push_back(of_whole(box, from, whole, static_cast<int>(i)));
     if (is_searched(part) || !some_searched) {
-      cover.dimension = std::max(cover.dimension, part.cover.dimension);
+      cover.dimension = std::max(cover.dimension, dimension_of(part));
       cover.sigma.length = std::max(cover.sigma.length, part.cover.sigma.length);
       cover.sigma.angle = std::max(cover.sigma.angle, part.cover.sigma.angle);
     }
@@ -90,6 +115,12 @@ void merge_parts(Result& whole) {
     cover.statistics.seconds_certify += s.seconds_certify;
     if (whole.stopped.empty()) whole.stopped = part.stopped;
   }
+  whole.free_coordinates = whole.parts.front().free_coordinates;
+  std::erase_if(whole.free_coordinates, [&](const std::string& name) {
+    return std::ranges::any_of(whole.parts, [&](const Result& part) {
+      return std::ranges::find(part.free_coordinates, name) == part.free_coordinates.end();
+    });
+  });
   if (cover.dimension > 0) cover.points.clear();
   whole.options.sigma = cover.sigma;
   whole.outputs = whole.parts.front().outputs;

@@ -95,8 +95,9 @@ struct Result {
   int configuration_size = 0;  ///< this many variables, the first ones, describe the configuration
   int equations = 0, inequalities = 0;
   /// Where the set consists of parts, each of these is a result of its own, with the same model, options and configuration
-  /// variables; `part` says which one it is. The whole then has the boxes of all parts, in their order and in the
-  /// configuration's variables alone, and leaves what is proven of them to the parts (merge_parts).
+  /// variables, but for those that it leaves out (symbolic/sets/set_parts.h); `part` says which one it is. The whole then
+  /// has the boxes of all parts, in their order and in the configuration's variables alone, those left out with their
+  /// ranges, and leaves what is proven of them to the parts (merge_parts).
   std::string part;
   std::string condition;  ///< of a part that is a factor's: "d1 - x = 0"
   /// Coordinates that take every value in their ranges, whatever those of the others are: the set is the product of these
@@ -127,6 +128,11 @@ struct Result {
 
 /// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.
 void describe_system(const System& system, Result& result);
+
+/// The free coordinates that the boxes have no sides for: each is solved for all of its values.
+std::vector<std::string> left_out(const Result& part);
+/// Of the set: that of its boxes, and what they leave out.
+int dimension_of(const Result& result);
 
 /// Fills in what the whole has of its parts, at least one: variables, angles, sizes, boxes and points, statistics.
 void merge_parts(Result& whole);

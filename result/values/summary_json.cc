@@ -99,7 +99,7 @@ Json parts_json(const Result& result) {
   for (const Result& part : result.parts) {
     Json entry = {{"part", part.part},
                   {"boxes", part.cover.boxes.size()},
-                  {"dimension", part.cover.dimension},
+                  {"dimension", dimension_of(part)},
                   {"complete", part.cover.complete()}};
     if (!part.condition.empty()) entry["condition"] = part.condition;
     entry["free_coordinates"] = part.free_coordinates;

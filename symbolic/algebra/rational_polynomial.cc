@@ -104,7 +104,9 @@ RationalPolynomial RationalPolynomial::power(std::uint64_t exponent) const {
 }
 
 RationalPolynomial RationalPolynomial::with(std::size_t unknown, std::uint64_t step, const RationalPolynomial& value) const {
-  std::map<ulong, RationalPolynomial> parts;  // by the value's power
+  if (fmpq_mpoly_degree_si(value_, static_cast<slong>(unknown), ring_.context()) < static_cast<slong>(step)) return *this;
+  // By the value's power. Terms that share it keep their lexicographic order, and stay different.
+  std::map<ulong, RationalPolynomial> parts;
   std::vector<ulong> powers(ring_.unknowns());
   Rational coefficient;
   for (std::size_t k = 0; k < size(); ++k) {
@@ -116,8 +118,7 @@ RationalPolynomial RationalPolynomial::with(std::size_t unknown, std::uint64_t s
   }
   RationalPolynomial sum(ring_);
   for (auto& [power, part] : parts) {
-    fmpq_mpoly_sort_terms(part.value_, ring_.context());
-    fmpq_mpoly_combine_like_terms(part.value_, ring_.context());
+    fmpq_mpoly_reduce(part.value_, ring_.context());
     sum = sum + part * value.power(power);
   }
   return sum;

@@ -9,6 +9,7 @@
 // numbers, and what cos² + sin² = 1 makes of them, have the zeros of their product.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ struct Component {
   std::optional<DependentAngle> dependent_angle{};  ///< of sin(a ∓ b) = 0 or cos(a ∓ b) = 0, each a part for either way
   std::optional<Expression> condition{};
   std::optional<ExpressionMatrix> block{};  ///< with a kernel vector: more than three rows whose determinant is no product
+  /// In place of Φ(q) = 0, where some coordinates are left out (set_parts.h).
+  std::shared_ptr<const TrigonometricSystem> factor{};
 
   /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.
   std::string relation() const {

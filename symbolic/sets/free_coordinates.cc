@@ -20,6 +20,12 @@ bool is_in_range(const Mechanism& mechanism, const Coordinate& c, const Interval
   return lower.hi() < value.lo() && value.hi() < upper.lo();
 }
 
+bool has_given(const FreeCoordinates& free, const std::vector<Expression>& functions) {
+  return std::ranges::any_of(functions, [&](const Expression& e) {
+    return std::ranges::any_of(free.given, [&](const Relation& r) { return e.mentions(r.lhs.name()); });
+  });
+}
+
 // u_link2 of u_link2_x.
 std::string vector_of(const std::string& component) { return component.substr(0, component.rfind('_')); }
 
@@ -134,13 +140,27 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
   return result;
 }
 
+bool FreeCoordinates::has(const std::string& name) const {
+  return std::ranges::find(system.coordinates, name, &Coordinate::name) != system.coordinates.end();
+}
+
+std::optional<TrigonometricSystem> mentioned_coordinates(const FreeCoordinates& free,
+                                                         const std::vector<Expression>& functions) {
+  if (has_given(free, functions)) return std::nullopt;
+  TrigonometricSystem system = free.system;
+  std::erase_if(system.coordinates, [&](const Coordinate& c) {
+    return !is_fixed(c) && std::ranges::none_of(functions, [&](const Expression& e) { return e.mentions(c.name); }) &&
+           std::ranges::none_of(system.inequalities, [&](const TrigonometricSystem::Equation& e) {
+             return e.relation.lhs.mentions(c.name) || e.relation.rhs.mentions(c.name);
+           });
+  });
+  return system;
+}
+
 std::optional<std::vector<IndependentPart>> independent_parts(const FreeCoordinates& free,
                                                               const std::vector<Expression>& functions) {
   const std::vector<Coordinate>& all = free.system.coordinates;
-  const auto has_given = [&](const Expression& e) {
-    return std::ranges::any_of(free.given, [&](const Relation& r) { return e.mentions(r.lhs.name()); });
-  };
-  if (std::ranges::any_of(functions, has_given)) return std::nullopt;
+  if (has_given(free, functions)) return std::nullopt;
   const auto place = [&](const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(all, name, &Coordinate::name) - all.begin());
   };

@@ -23,11 +23,19 @@ struct FreeCoordinates {
   TrigonometricSystem system;
   /// In the order of their equations, each by free ones and those before it: x = f.
   std::vector<Relation> given;
+
+  bool has(const std::string& name) const;  ///< is it one of the free ones?
 };
 
 /// Nothing where some equation gives no coordinate, a given one has one value or stands in a sine, or a range depends on a
 /// tolerance. Other constants with tolerances stay names: the theorem holds for every robot.
 std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism);
+
+/// The coordinates that some function or inequality is about, and those of one value, with the inequalities: C-space is the
+/// product of these configurations and of the other free coordinates' ranges. Nothing where a function has a given
+/// coordinate.
+std::optional<TrigonometricSystem> mentioned_coordinates(const FreeCoordinates& free,
+                                                         const std::vector<Expression>& functions);
 
 /// A factor of a product of sets.
 struct IndependentPart {

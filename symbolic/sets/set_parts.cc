@@ -1,6 +1,10 @@
 #include "corank/symbolic/sets/set_parts.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/free_coordinates.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 
 namespace corank::symbolic {
@@ -11,11 +15,35 @@ std::string text(const SetPart& part) {
   return std::get<BoundaryPart>(part).text();
 }
 
+namespace {
+
+// Parts without a kernel vector.
+void leave_out_coordinates(const Mechanism& mechanism, std::vector<Component>& parts) {
+  constexpr long kLeastFree = 4;
+  if (std::ranges::any_of(parts, [](const Component& part) { return part.block.has_value(); })) return;
+  const auto free = free_coordinates(mechanism);
+  if (!free || std::ranges::count_if(free->system.coordinates, std::not_fn(is_fixed)) < kLeastFree) return;
+  for (Component& part : parts) {
+    std::vector<Expression> functions;
+    if (part.condition) functions.push_back(*part.condition);
+    if (part.dependent_angle)
+      for (const std::string& name : {part.dependent_angle->angle, part.dependent_angle->other})
+        functions.push_back(Expression::symbol(name));
+    if (auto factor = mentioned_coordinates(*free, functions);
+        factor && factor->coordinates.size() < mechanism.coordinates().size())
+      part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
+  }
+}
+
+}  // namespace
+
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended) {
   const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
   if (definition(set).of_parts) return as_parts(boundary_parts(mechanism));
   if (definition(set).of_requirements) return as_parts(requirement_parts(mechanism));
-  return as_parts(decompose(mechanism, kernel_question(mechanism, set), ended));
+  std::vector<Component> components = decompose(mechanism, kernel_question(mechanism, set), ended);
+  if (!components.empty()) leave_out_coordinates(mechanism, components);
+  return as_parts(std::move(components));
 }
 
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side)
@@ -46,12 +74,15 @@ std::vector<std::string> SetEquations::scales() const {
 
 TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales, int corank) const {
   if (!part_ && !kernel_) return singularity_system(mechanism_, set_, std::nullopt, scales, corank);
-  TrigonometricSystem system = kernel_ ? singularity_system(mechanism_, *kernel_, scales, corank) : plain_system(mechanism_);
+  const auto* component = part_ ? std::get_if<Component>(&*part_) : nullptr;
+  TrigonometricSystem system = kernel_                          ? singularity_system(mechanism_, *kernel_, scales, corank)
+                               : component && component->factor ? *component->factor
+                                                                : plain_system(mechanism_);
   if (!kernel_) system.name += std::string(" ") + definition(set_).name;
   if (!part_) return system;
   if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {
     set_at_limits(*limits, system);
-  } else if (const auto* component = std::get_if<Component>(&*part_)) {
+  } else if (component) {
     add_condition(*component, system);
   }
   return system;

@@ -22,6 +22,9 @@ using SetPart = std::variant<BoundaryPart, Component, RequirementPart>;
 std::string text(const SetPart& part);
 
 /// boundary_parts(), requirement_parts(), or decompose(). Throws ModelError as these do.
+/// Of an arm whose singularities have dimension 3 or more, a part is about the joints alone that its condition or a range
+/// mentions: it is the product of what is found there and of the other joints' ranges, and all other coordinates follow from
+/// the joints (free_coordinates.h). In all coordinates such a set would be too large for boxes.
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended = {});
 
 /// What solves a set, or one of its parts: what its kernel is asked of, made once. Throws ModelError as kernel_question(),

@@ -14,6 +14,7 @@ namespace {
 
 using nlohmann::json;
 using Words = std::vector<std::string>;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -53,10 +54,41 @@ TEST(SetPartsOnTheCommandLine, AreProductsWithTheCoordinatesThatTheyLeaveFree) {
     EXPECT_EQ(result["parts"][k]["free_coordinates"], expected[k]) << result["parts"][k];
     EXPECT_EQ(json(read.parts.at(k).free_coordinates), expected[k]);
   }
-  EXPECT_EQ(result["free_coordinates"], json::array()) << "the union is no product";
+  EXPECT_EQ(result["free_coordinates"], json::array()) << "no coordinate is free in all parts";
   EXPECT_THAT(asked.out, HasSubstr(", for every theta2 and theta5\n"));
   EXPECT_THAT(run_corank({"solve", model("planar/arm_4r"), "--set", "cspace", "--sigma", "inf"}).out,
               HasSubstr("a product: solutions stay solutions for every theta1, theta2, theta3 and theta4\n"));
+}
+
+TEST(SetPartsOnTheCommandLine, OfALargeSetLeaveOutCoordinates) {
+  const TemporaryFolder folder;
+  std::string text = read_text(model("serial/puma_560"));
+  for (const char* range : {"range [t1, t1]", "range [t4, t4]", "range [t6, t6]"}) text.erase(text.find(range), 14);
+  folder.write("puma.cuik", text);
+  const Outcome asked = run_corank({"solve", folder.file("puma.cuik"), "--set", "inverse", "--json", folder.file("r.json"),
+                                    "-o", folder.file("r.h5"), "--proof"});
+  EXPECT_EQ(asked.status, 0) << asked.err;
+  EXPECT_THAT(asked.out, HasSubstr("dimension 5\n"));
+  EXPECT_THAT(asked.out, HasSubstr("a product: solutions stay solutions for every theta1, theta4 and theta6\n"));
+  EXPECT_THAT(asked.out,
+              HasSubstr("  sin(theta5) = 0                       2 boxes, for every theta1, theta2, theta3, theta4"));
+  const json result = json::parse(read_text(folder.file("r.json")));
+  EXPECT_EQ(result["boxes"]["isolated"], 0);
+  EXPECT_EQ(result["parts"][0]["isolated"], 2);
+  for (const json& part : result["parts"]) EXPECT_EQ(part["dimension"], 5);
+  const Outcome verified = run_corank({"verify", folder.file("r.h5")});
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
+  EXPECT_THAT(verified.out, HasSubstr("\nverified\n"));
+  result::Result claimed = result::read_result(folder.file("r.h5"));
+  claimed.parts[1].free_coordinates.push_back("theta3");  // its condition is about theta3, which its boxes have
+  claimed.parts[2].free_coordinates.push_back("hand_x");  // which the joints give
+  result::write_result(folder.file("claimed.h5"), claimed);
+  const Outcome refused = run_corank({"verify", folder.file("claimed.h5")});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.out, AllOf(HasSubstr("theta3 is not free"), HasSubstr("hand_x is not free")));
+  // Pictures have axes that are left out, too; of a page the sets are drawn in all coordinates.
+  EXPECT_EQ(run_corank({"plot", folder.file("r.h5"), "--axes", "theta2,theta3", "-o", folder.file("p.svg")}).status, 0);
+  EXPECT_EQ(run_corank({"plot", folder.file("r.h5"), "--axes", "hand_x,theta3", "-o", folder.file("q.svg")}).status, 0);
 }
 
 TEST(SetPartsOnTheCommandLine, AreLeftTogetherWhereAKernelIsAskedFor) {

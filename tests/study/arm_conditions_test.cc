@@ -1,4 +1,5 @@
-// The parts of random arms' inverse sets, against the determinant of a Jacobian by other kinematics.
+// The parts of random arms' inverse sets, against the determinant of a Jacobian by other kinematics. CORANK_SEEDS=1000 looks
+// further.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -6,12 +7,15 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iostream>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <random>
 
+#include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model/evaluate.h"
@@ -34,13 +38,18 @@ struct RandomArm {
   explicit RandomArm(unsigned seed) {
     std::mt19937 random(seed);
     const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
-    text = "[DH]\nstandard\na alpha d theta\n";
     for (int i = 0; i < 6; ++i) {
       const auto length = [&] { return below(2) == 0 ? 0.0 : (1 + below(40)) / 20.0; };
       rows.push_back({length(), length(), i == 5 ? 0 : below(4) == 0 ? 0 : below(2) == 0 ? 1 : -1});
-      text += fmt::format("{} {}deg {} q{}\n", rows[i].a, 90 * rows[i].quarters, rows[i].d, i + 1);
     }
-    text += "[OUTPUTS]\nhand : pose of tool\n";
+  }
+
+  /// `after`: of each row, " range [0, 1]".
+  std::string text(const std::array<std::string, 6>& after = {}) const {
+    std::string text = "[DH]\nstandard\na alpha d theta\n";
+    for (std::size_t i = 0; i < 6; ++i)
+      text += fmt::format("{} {}deg {} q{}{}\n", rows[i].a, 90 * rows[i].quarters, rows[i].d, i + 1, after[i]);
+    return text + "[OUTPUTS]\nhand : pose of tool\n";
   }
 
   double determinant(const std::map<std::string, double>& q) const {
@@ -64,13 +73,27 @@ struct RandomArm {
   }
 
   std::vector<Row> rows;
-  std::string text;
 };
 
 double value_of(const symbolic::Component& part, const std::map<std::string, double>& q) {
   if (part.condition) return symbolic::evaluate(*part.condition, q);
   const symbolic::DependentAngle& angle = part.dependent_angle.value();
   return std::sin((q.at(angle.angle) - angle.sign * q.at(angle.other) - angle.quarters * pi / 2) / 2);
+}
+
+using Posture = std::map<std::string, double>;
+
+// Between two postures, by bisection.
+template <class Function>
+std::optional<Posture> zero_between(Posture from, Posture to, const Function& f) {
+  const bool positive = f(from) > 0;
+  if (positive == (f(to) > 0)) return std::nullopt;
+  for (int step = 0; step < 60; ++step) {
+    Posture middle = from;
+    for (auto& [name, value] : middle) value = (value + to.at(name)) / 2;
+    ((f(middle) > 0) == positive ? from : to) = middle;
+  }
+  return from;
 }
 
 TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
@@ -81,25 +104,14 @@ TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
     const RandomArm arm(seed);
     std::mt19937 random(seed);
     const auto point = [&] {
-      std::map<std::string, double> q;
+      Posture q;
       for (int i = 1; i <= 6; ++i) q[fmt::format("q{}", i)] = std::uniform_real_distribution<>(-pi, pi)(random);
       return q;
     };
-    // Between two random points, by bisection.
-    const auto zero = [&](const auto& f) -> std::optional<std::map<std::string, double>> {
-      std::map<std::string, double> from = point(), to = point();
-      const bool positive = f(from) > 0;
-      if (positive == (f(to) > 0)) return std::nullopt;
-      for (int step = 0; step < 60; ++step) {
-        auto middle = from;
-        for (auto& [name, value] : middle) value = (value + to.at(name)) / 2;
-        ((f(middle) > 0) == positive ? from : to) = middle;
-      }
-      return from;
-    };
+    const auto zero = [&](const auto& f) { return zero_between(point(), point(), f); };
     const auto determinant = [&](const std::map<std::string, double>& q) { return arm.determinant(q); };
     if (std::fabs(determinant(point())) < 1e-12) continue;  // it is singular everywhere
-    const Model robot = parse_model({arm.text, "arm.cuik"});
+    const Model robot = parse_model({arm.text(), "arm.cuik"});
     const std::vector<Question> questions =
         parts_of({.model = robot.mechanism, .set = SingularitySet::inverse, .assembly = robot.assembly, .in_parts = true});
     std::vector<symbolic::Component> parts;
@@ -131,6 +143,97 @@ TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
   EXPECT_GT(arms, with_vectors);
   EXPECT_GT(on_parts, 2 * arms);
   EXPECT_GT(on_determinants, 2 * arms);
+}
+
+// Joints 1 and 6 move the robot as a whole, and its hand: no condition is about them. Of the others one or two are locked.
+class LargeArm {
+ public:
+  explicit LargeArm(unsigned seed) : random_(seed), arm_(seed) {
+    std::array<std::string, 6> after;
+    std::array<int, 4> inner{1, 2, 3, 4};
+    std::ranges::shuffle(inner, random_);
+    const std::size_t locked = 1 + random_() % 2;
+    for (std::size_t k = 0; k < locked; ++k) {
+      const double value = (static_cast<int>(random_() % 49) - 24) / 8.0;
+      ends_[inner[k]] = {value, value};
+    }
+    if (random_() % 2 == 0) ends_[0] = {-2, 1};
+    if (random_() % 3 == 0) ends_[inner[3]] = {-1, 2.5};
+    for (std::size_t i = 0; i < 6; ++i)
+      if (ends_[i] != kTurn) after[i] = fmt::format(" range [{}, {}]", ends_[i][0], ends_[i][1]);
+    text = arm_.text(after);
+  }
+
+  double determinant(const Posture& q) const { return arm_.determinant(q); }
+  Posture posture() {
+    Posture q;
+    for (std::size_t i = 0; i < 6; ++i)
+      q[fmt::format("q{}", i + 1)] = std::uniform_real_distribution<>(ends_[i][0], std::nextafter(ends_[i][1], 4))(random_);
+    return q;
+  }
+  /// Where the determinant is 0.
+  std::optional<Posture> singular() {
+    return zero_between(posture(), posture(), [this](const Posture& q) { return determinant(q); });
+  }
+
+  std::string text;
+
+ private:
+  static constexpr std::array<double, 2> kTurn{-pi, pi};
+  std::mt19937 random_;
+  RandomArm arm_;
+  std::array<std::array<double, 2>, 6> ends_{kTurn, kTurn, kTurn, kTurn, kTurn, kTurn};
+};
+
+bool holds(const result::Result& result, const CoverBox& box, const Posture& q) {
+  constexpr double kRounding = 1e-7;
+  return std::ranges::all_of(result.angles, [&](const Angle& angle) {
+    const auto is_near = [&](int v, double x) {
+      return box.box[v].lo() - kRounding <= x && x <= box.box[v].hi() + kRounding;
+    };
+    const double value = q.at(angle.name);
+    return is_near(angle.cosine, std::cos(value)) && is_near(angle.sine, std::sin(value));
+  });
+}
+
+TEST(SetPartsOf, LargeSetsOfRandomArmsAreProductsInWhichNothingIsLost) {
+  constexpr double kZero = 1e-7;
+  std::size_t products = 0, incomplete = 0, points = 0, lost = 0, refused = 0, wrong = 0;
+  for (unsigned seed = 1; seed <= test::seeds(20); ++seed) {
+    SCOPED_TRACE(seed);
+    LargeArm arm(seed);
+    if (std::fabs(arm.determinant(arm.posture())) < 1e-12) continue;
+    const Model robot = parse_model({arm.text, "arm.cuik"});
+    solve::Control control({.boxes = 4'000});
+    const Systems systems =
+        systems_of({.model = robot.mechanism, .set = SingularitySet::inverse, .assembly = robot.assembly}, control);
+    const auto* part = systems.parts[0].part ? std::get_if<symbolic::Component>(&*systems.parts[0].part) : nullptr;
+    if (!part || !part->factor) continue;
+    ++products;
+    Options options;
+    options.search.surfaces_whole = true;
+    options.search.threads = 1;
+    const result::Result whole = answer(systems, options, control);
+    incomplete += !whole.cover.complete();
+    EXPECT_FALSE(whole.free_coordinates.empty());
+    for (int trial = 0; trial < 20; ++trial) {
+      std::optional<Posture> q = arm.singular();
+      if (!q) continue;
+      ++points;
+      lost += std::ranges::none_of(whole.cover.boxes, [&](const CoverBox& box) { return holds(whole, box, *q); });
+      const Posture other = arm.posture();
+      for (const std::string& name : whole.free_coordinates) (*q)[name] = other.at(name);
+      wrong += std::fabs(arm.determinant(*q)) > kZero;
+    }
+    const result::Verification verification = result::verify(whole);
+    refused += !verification.verified();
+  }
+  std::cout << fmt::format(
+      "{} products, {} not searched to the end; {} points, {} lost; {} results refused, {} no products\n", products,
+      incomplete, points, lost, refused, wrong);
+  EXPECT_GT(products, 3u);
+  EXPECT_GT(points, 20u);
+  EXPECT_EQ(lost + refused + wrong, 0u);
 }
 
 }  // namespace
