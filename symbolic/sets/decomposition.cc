@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostRows = 3;              // of a block whose determinant is a condition though it is no product
 constexpr std::size_t kMostConditionTerms = 200;  // of a condition: longer ones make wide enclosures
+constexpr std::size_t kMostTermsInJoints = 2000;  // but in four joints they are the best there is
 constexpr std::size_t kLongestName = 60;
 constexpr std::size_t kMostNames = 6;  // of coordinates in a part's name
 
@@ -157,6 +158,7 @@ class Decomposer {
       : ended_(ended), space_(mechanism), matrix_(mechanism, matrix, phi) {}
 
   std::vector<Component> run() {
+    matrix_.put_into_free_coordinates(ended_);
     matrix_.eliminate_numbers();
     const auto blocks = matrix_.blocks();
     if (!blocks) return {};
@@ -216,7 +218,7 @@ class Decomposer {
         const auto simple = on_cspace.factors(ended_);
         if (!simple) return Factors{.fail = true};
         for (const RationalPolynomial& f : *simple) {
-          if (f.size() > kMostConditionTerms) return std::nullopt;
+          if (f.size() > (matrix_.is_explicit() ? kMostTermsInJoints : kMostConditionTerms)) return std::nullopt;
           auto condition = matrix_.condition(f);
           if (condition && !space_.vanishes_nowhere(*condition)) result.conditions.push_back(std::move(*condition));
         }

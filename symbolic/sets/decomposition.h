@@ -42,6 +42,7 @@ struct Component {
 /// show, or the factors are not found in time (RationalPolynomial::factors) or before `ended`. Factors that are proven to
 /// have no zero in the search domain are left out. Angles fixed at multiples of π/2 are replaced by
 /// their value.
+/// Of an arm M is written in the joints before it is decomposed (ExactMatrix::put_into_free_coordinates).
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended = {});
 
 }  // namespace corank::symbolic

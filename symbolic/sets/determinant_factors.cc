@@ -20,6 +20,7 @@ std::size_t place_of(const Expression& e, std::size_t known, std::vector<Express
 std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended,
                                             std::vector<Expression>* constants) {
   ExactMatrix m(mechanism, matrix, residuals(mechanism));
+  m.put_into_free_coordinates(ended);
   m.eliminate_numbers();
   const auto vanishing = [&]() -> ModelError {
     return {{mechanism.name(), 0, 0},
@@ -30,7 +31,7 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
   if (!blocks) throw vanishing();
   std::vector<RationalPolynomial> factors;
   for (const SquareBlock& block : *blocks) {
-    const RationalPolynomial value = m.determinant(block);
+    const RationalPolynomial value = m.is_explicit() ? m.modulo_circles(m.determinant(block)) : m.determinant(block);
     if (value.is_zero()) throw vanishing();
     for (const RationalPolynomial& factor : value.factors(ended).value_or(std::vector{value})) {
       const RationalPolynomial on_cspace = m.is_explicit() ? m.in_free_coordinates(factor, ended) : factor;

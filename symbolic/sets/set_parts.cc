@@ -17,22 +17,36 @@ std::string text(const SetPart& part) {
 
 namespace {
 
-// Parts without a kernel vector.
-void leave_out_coordinates(const Mechanism& mechanism, std::vector<Component>& parts) {
+// Nothing: of no arm, or of one whose singularities are a surface at most.
+std::optional<FreeCoordinates> joints_of_large_set(const Mechanism& mechanism) {
   constexpr long kLeastFree = 4;
-  if (std::ranges::any_of(parts, [](const Component& part) { return part.block.has_value(); })) return;
-  const auto free = free_coordinates(mechanism);
-  if (!free || std::ranges::count_if(free->system.coordinates, std::not_fn(is_fixed)) < kLeastFree) return;
+  auto free = free_coordinates(mechanism);
+  const bool is_large = free && std::ranges::count_if(free->system.coordinates, std::not_fn(is_fixed)) >= kLeastFree;
+  return is_large ? std::move(free) : std::nullopt;
+}
+
+// False where some part has a kernel vector, or a condition that is not about joints.
+bool leave_out_coordinates(const FreeCoordinates& free, std::vector<Component>& parts) {
   for (Component& part : parts) {
     std::vector<Expression> functions;
     if (part.condition) functions.push_back(*part.condition);
     if (part.dependent_angle)
       for (const std::string& name : {part.dependent_angle->angle, part.dependent_angle->other})
         functions.push_back(Expression::symbol(name));
-    if (auto factor = mentioned_coordinates(*free, functions);
-        factor && factor->coordinates.size() < mechanism.coordinates().size())
-      part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
+    auto factor = mentioned_coordinates(free, functions);
+    if (part.block || !factor) return false;
+    part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
   }
+  return !parts.empty();
+}
+
+// Of an arm with a large set in its joints, if that can be done.
+std::vector<Component> components(const Mechanism& mechanism, SingularitySet set, const Ended& ended) {
+  std::vector<Component> parts = decompose(mechanism, kernel_question(mechanism, set), ended);
+  const auto free = joints_of_large_set(mechanism);
+  if (!free) return parts;
+  std::vector<Component> in_joints = parts;
+  return leave_out_coordinates(*free, in_joints) ? in_joints : parts;
 }
 
 }  // namespace
@@ -41,9 +55,7 @@ std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, c
   const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
   if (definition(set).of_parts) return as_parts(boundary_parts(mechanism));
   if (definition(set).of_requirements) return as_parts(requirement_parts(mechanism));
-  std::vector<Component> components = decompose(mechanism, kernel_question(mechanism, set), ended);
-  if (!components.empty()) leave_out_coordinates(mechanism, components);
-  return as_parts(std::move(components));
+  return as_parts(components(mechanism, set, ended));
 }
 
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side)

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/algebra/ginac_bridge.h"
 #include "corank/symbolic/algebra/ginac_lock.h"
 
@@ -72,6 +73,13 @@ class ExactMatrix::Unknowns {
   Unknowns(const Mechanism& mechanism, SourceLocation where) : bridge(mechanism), where_(std::move(where)) {
     for (const Coordinate& c : mechanism.coordinates())
       (c.kind == CoordinateKind::angle ? angles_ : lengths_).push_back(bridge.symbol(c.name));
+    for (const Constant& c : mechanism.constants()) {
+      const Expression name = Expression::symbol(c.name);
+      if (!mechanism.toleranced_in(name).empty()) continue;
+      const ExactNumber value = exact_value(mechanism, name, c.name);
+      if (const ExactNumber square = value * value; !value.is_rational() && square.is_rational())
+        squares_.emplace(bridge.symbol(c.name), square.text());
+    }
   }
 
   const GinacLock lock{};
@@ -97,11 +105,31 @@ class ExactMatrix::Unknowns {
   struct Circle {
     std::size_t cosine, sine;
   };
+  // Of the coordinates that are angles, then of constant ones.
   std::vector<Circle> circles() const {
     std::vector<Circle> result;
-    for (const GiNaC::ex& angle : angles_) {
+    GiNaC::exvector angles = angles_;
+    for (const GiNaC::ex& atom : atoms_)
+      if (GiNaC::is_a<GiNaC::function>(atom) &&
+          std::ranges::find_if(angles, [&](const GiNaC::ex& e) { return e.is_equal(atom.op(0)); }) == angles.end())
+        angles.push_back(atom.op(0));
+    for (const GiNaC::ex& angle : angles) {
       const auto c = index_.find(GiNaC::cos(angle)), s = index_.find(GiNaC::sin(angle));
       if (c != index_.end() && s != index_.end()) result.push_back({c->second, s->second});
+    }
+    return result;
+  }
+
+  // √3 and constants such as √3/2, with 3 and 3/4.
+  std::vector<std::pair<std::size_t, RationalPolynomial>> square_roots() const {
+    std::vector<std::pair<std::size_t, RationalPolynomial>> result;
+    for (std::size_t k = 0; k < atoms_.size(); ++k) {
+      const GiNaC::ex& atom = atoms_[k];
+      const auto constant = squares_.find(atom);
+      if (constant != squares_.end()) result.emplace_back(k, RationalPolynomial::number(*ring_, constant->second));
+      if (GiNaC::is_a<GiNaC::power>(atom) && atom.op(1).is_equal(GiNaC::numeric(1, 2)) &&
+          atom.op(0).info(GiNaC::info_flags::rational))
+        result.emplace_back(k, polynomial(atom.op(0)));
     }
     return result;
   }
@@ -155,6 +183,7 @@ class ExactMatrix::Unknowns {
   }
   const SourceLocation where_;
   std::vector<GiNaC::ex> angles_, lengths_;
+  std::map<GiNaC::ex, std::string, GiNaC::ex_is_less> squares_;
   std::optional<PolynomialRing> ring_;
   std::map<GiNaC::ex, std::size_t, GiNaC::ex_is_less> index_;
   std::vector<GiNaC::ex> atoms_;
@@ -266,6 +295,8 @@ RationalPolynomial ExactMatrix::determinant(const SquareBlock& block) const {
                                     "a determinant of " + std::to_string(block.rows.size()) + " rows with many terms",
                                     "at most " + std::to_string(kMostTerms) + " terms");
       }
+    if (in_free_coordinates_)
+      for (auto& [columns, minor] : next) minor = normal(std::move(minor));
     minors = std::move(next);
   }
   const auto all = minors.find(static_cast<std::uint32_t>((std::uint64_t{1} << block.columns.size()) - 1));
@@ -288,6 +319,7 @@ RationalPolynomial ExactMatrix::without_squares(const RationalPolynomial& f, std
 
 RationalPolynomial ExactMatrix::modulo_circles(const RationalPolynomial& f) const {
   RationalPolynomial shortest = f;
+  for (const auto& [root, square] : unknowns_->square_roots()) shortest = shortest.with(root, 2, square);
   for (const auto& [cosine, sine] : unknowns_->circles())
     for (const auto& [gone, kept] : {std::pair(cosine, sine), std::pair(sine, cosine)}) {
       RationalPolynomial other = without_squares(shortest, gone, kept);
@@ -296,14 +328,76 @@ RationalPolynomial ExactMatrix::modulo_circles(const RationalPolynomial& f) cons
   return shortest;
 }
 
+RationalPolynomial ExactMatrix::normal(RationalPolynomial f) const {
+  for (const auto& [cosine, sine] : unknowns_->circles()) f = without_squares(f, sine, cosine);
+  for (const auto& [root, square] : unknowns_->square_roots()) f = f.with(root, 2, square);
+  return f;
+}
+
+void ExactMatrix::put_into_free_coordinates(const Ended& ended) {
+  constexpr std::size_t kLongest = 20'000;
+  if (!is_explicit()) return;
+  std::vector<Explicit> values;
+  const auto in_free = [&](RationalPolynomial f) -> std::optional<RationalPolynomial> {
+    for (const auto& [unknown, value] : values)
+      if (f.mentions(unknown)) f = normal(f.with(unknown, 1, value));
+    f = normal(std::move(f));
+    return f.size() > kLongest || is_over(ended) ? std::nullopt : std::optional(std::move(f));
+  };
+  for (const auto& [unknown, value] : explicit_) {
+    auto f = in_free(value);
+    if (!f) return;
+    values.push_back({unknown, std::move(*f)});
+  }
+  auto rows = rows_;
+  for (std::vector<RationalPolynomial>& row : rows)
+    for (RationalPolynomial& entry : row) {
+      auto f = in_free(entry);
+      if (!f) return;
+      entry = std::move(*f);
+    }
+  rows_ = std::move(rows);
+  in_free_coordinates_ = true;
+  for (bool any = true; std::exchange(any, false);)
+    for (std::size_t i = 0; i < size(); ++i)
+      for (std::size_t j = i + 1; j < size(); ++j) any = (!is_over(ended) && turn_rows(i, j)) || any;
+}
+
+// By the first angle that helps.
+bool ExactMatrix::turn_rows(std::size_t first, std::size_t second) {
+  const auto length = [](const std::vector<RationalPolynomial>& row) {
+    return std::accumulate(row.begin(), row.end(), std::size_t{0},
+                           [](std::size_t sum, const RationalPolynomial& entry) { return sum + entry.size(); });
+  };
+  const std::size_t before = length(rows_[first]) + length(rows_[second]);
+  for (const auto& [cosine, sine] : unknowns_->circles()) {
+    const auto mentions = [&, c = cosine, s = sine](const RationalPolynomial& e) { return e.mentions(c) || e.mentions(s); };
+    if (std::ranges::none_of(rows_[first], mentions) || std::ranges::none_of(rows_[second], mentions)) continue;
+    const RationalPolynomial c = RationalPolynomial::unknown(unknowns_->ring(), cosine),
+                             s = RationalPolynomial::unknown(unknowns_->ring(), sine);
+    for (const bool back : {false, true}) {
+      std::vector<RationalPolynomial> one, other;
+      for (std::size_t k = 0; k < columns_.size(); ++k) {
+        const RationalPolynomial &a = rows_[first][k], &b = rows_[second][k];
+        one.push_back(without_squares(back ? c * a - s * b : c * a + s * b, sine, cosine));
+        other.push_back(without_squares(back ? c * b + s * a : c * b - s * a, sine, cosine));
+      }
+      if (length(one) + length(other) >= before) continue;
+      rows_[first] = std::move(one);
+      rows_[second] = std::move(other);
+      return true;
+    }
+  }
+  return false;
+}
+
 RationalPolynomial ExactMatrix::in_free_coordinates(const RationalPolynomial& f, const Ended& ended) const {
   constexpr std::size_t kMostOnTheWay = 200'000;
   RationalPolynomial result = f;
   for (std::size_t i = explicit_.size(); i-- > 0;) {
     const auto& [unknown, value] = explicit_[i];
     if (!result.mentions(unknown)) continue;
-    result = result.with(unknown, 1, value);
-    for (const auto& [cosine, sine] : unknowns_->circles()) result = without_squares(result, sine, cosine);
+    result = normal(result.with(unknown, 1, value));
     if (result.size() > kMostOnTheWay || is_over(ended)) return f;
   }
   result = modulo_circles(result);

@@ -57,13 +57,19 @@ class ExactMatrix {
   RationalPolynomial determinant(const SquareBlock& block) const;
   /// Of the matrix as it was given, sign and number included. Throws likewise.
   RationalPolynomial determinant() const;
-  /// 0 where cos² + sin² = 1 of all angles shows it, else the same polynomial or one with fewer terms.
+  /// 0 where cos² + sin² = 1 of all angles, and √a² = a, show it, else the same polynomial or one with fewer terms.
   RationalPolynomial modulo_circles(const RationalPolynomial& f) const;
 
   /// The same at every configuration: coordinates that an equation of Φ gives explicitly, as a polynomial in coordinates
   /// that occur before, are replaced by it, and even powers of sines by cosines. f itself where that is longer, unless it is
   /// in fewer unknowns and at most twice as long, or once `ended` says so.
   RationalPolynomial in_free_coordinates(const RationalPolynomial& f, const Ended& ended = {}) const;
+
+  /// Writes M in the coordinates that are left where Φ gives all others; then turns pairs of rows by angles, r_i ↦
+  /// cos(θ)·r_i ± sin(θ)·r_j and r_j ↦ cos(θ)·r_j ∓ sin(θ)·r_i, while that makes entries shorter: a frame that turns with
+  /// a link does not see the joints before it. At every configuration det M is the same. Where Φ does not, entries get
+  /// too long, or `ended` says so, M is left as it is.
+  void put_into_free_coordinates(const Ended& ended = {});
 
   /// Does every equation of Φ give a coordinate so?
   bool is_explicit() const { return explicit_.size() == equations_; }
@@ -85,12 +91,15 @@ class ExactMatrix {
     RationalPolynomial value;
   };
   RationalPolynomial without_squares(const RationalPolynomial& f, std::size_t gone, std::size_t kept) const;
+  RationalPolynomial normal(RationalPolynomial f) const;  // no square of a sine or of √a: 0 where these show it
+  bool turn_rows(std::size_t first, std::size_t second);
 
   SourceLocation where_;
   std::unique_ptr<Unknowns> unknowns_;
   std::vector<std::vector<RationalPolynomial>> rows_;
   std::vector<std::string> columns_;
   std::optional<RationalPolynomial> eliminated_;  // by what the determinant has been divided; none: 1
+  bool in_free_coordinates_ = false;
   std::size_t equations_ = 0;
   std::vector<Explicit> explicit_;  // each in unknowns that are none, or stand before it
 };
