@@ -140,7 +140,8 @@ TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
       }
     if (HasFailure()) break;
   }
-  EXPECT_GT(arms, with_vectors);
+  std::cout << arms << " arms, " << with_vectors << " with kernel vectors\n";
+  EXPECT_EQ(with_vectors, 0);
   EXPECT_GT(on_parts, 2 * arms);
   EXPECT_GT(on_determinants, 2 * arms);
 }
@@ -231,7 +232,7 @@ TEST(SetPartsOf, LargeSetsOfRandomArmsAreProductsInWhichNothingIsLost) {
   std::cout << fmt::format(
       "{} products, {} not searched to the end; {} points, {} lost; {} results refused, {} no products\n", products,
       incomplete, points, lost, refused, wrong);
-  EXPECT_GT(products, 3u);
+  EXPECT_GT(products, 6u);
   EXPECT_GT(points, 20u);
   EXPECT_EQ(lost + refused + wrong, 0u);
 }
