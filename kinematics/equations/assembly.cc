@@ -18,7 +18,8 @@ int count_mobility(const Bodies& bodies, Space space) {
   const int full = space == Space::spatial ? 6 : 3;
   int mobility = full * (static_cast<int>(bodies.size()) - 1);
   for (const BodyJoint& j : bodies.joints) {
-    const int freedom = traits(j.kind).freedom;
+    // A pin in a slot turns one way in the plane, a ball three ways in space.
+    const int freedom = j.kind == JointKind::slot && space == Space::planar ? 2 : traits(j.kind).freedom;
     mobility -= is_rod(j.kind) ? 6 - freedom : std::max(0, full - freedom);
   }
   return mobility;

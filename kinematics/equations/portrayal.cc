@@ -58,7 +58,9 @@ class Portrayal : Drafter {
 
   /// A block that slides along the ground.
   bool is_on_rail(const BodyJoint& j) const {
-    return space_ == Space::planar && j.kind == JointKind::prismatic && (j.ends[0].body == 0 || j.ends[1].body == 0);
+    if (space_ != Space::planar) return false;
+    return (j.kind == JointKind::slot && j.ends[0].body == 0) ||
+           (j.kind == JointKind::prismatic && (j.ends[0].body == 0 || j.ends[1].body == 0));
   }
   static std::size_t block_of(const BodyJoint& j) { return j.ends[0].body == 0 ? 1 : 0; }
 
@@ -232,7 +234,11 @@ class Portrayal : Drafter {
           draft_.part(end.body == 0 ? Part::ground : Part::joint, {corner(end.body, local(end))});
         break;
       case JointKind::prismatic: draft_.part(Part::link, {at, far}); break;
-      case JointKind::spherical: draft_.part(space_ == Space::planar ? Part::joint : Part::ball, {at}); break;
+      case JointKind::slot:
+        draft_.part(Part::link, {at, far});
+        draft_.part(space_ == Space::planar ? Part::joint : Part::ball, {far});
+        break;
+      case JointKind::spherical: draft_.part(Part::ball, {at}); break;
       case JointKind::revolute:
         if (space_ == Space::spatial) {
           const Motion along = place_(e.body, e.point + e.axis);

@@ -140,8 +140,9 @@ class SpatialRobot : public Drafter {
     const BodyEnd& e = j.ends[0];
     switch (j.kind) {
       case JointKind::prismatic:
+      case JointKind::slot:
       case JointKind::cylindrical: {
-        const ex d = draft_.joint_way(j.index, j.kind == JointKind::prismatic ? of.name : of.name + "_way").value();
+        const ex d = draft_.joint_way(j.index, j.kind == JointKind::cylindrical ? of.name + "_way" : of.name).value();
         positions_.coordinates[j.index] = d;
         return d * positions_.image(e.body, e.axis);
       }

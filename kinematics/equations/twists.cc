@@ -101,6 +101,13 @@ std::vector<Screw> Twists::screws(const BodyJoint& j) {
       list[0].point = place(j.ends[1]);
       break;
     }
+    case JointKind::slot:
+      slide(linear(j), axis(j, 0));
+      for (std::size_t i = 0; i < 3; ++i)  // which no motor drives
+        list.push_back(
+            {draft_.rate("w_" + joint(j).name + "_" + "xyz"[i], CoordinateKind::angle, Role::passive, joint(j).where),
+             unit(i), place(j.ends[1]), true});
+      break;
     case JointKind::spherical:
       for (std::size_t i = 0; i < 3; ++i) turn(angular(j, std::string("_") + "xyz"[i]), unit(i));
       break;
@@ -263,6 +270,11 @@ void Twists::close(const BodyJoint& j) {
   Vec turned = turning(b1) - turning(b0), moved = velocity(b1, c) - velocity(b0, c);
   if (j.kind == JointKind::spherical) {
     closing_rows(moved, j);
+    return;
+  }
+  if (j.kind == JointKind::slot) {
+    const Vec pin = place(j.ends[1]);
+    closing_rows(velocity(b1, pin) - velocity(b0, pin) - linear(j) * axis(j, 0), j);
     return;
   }
   if (j.kind == JointKind::universal && role(j.index) == Role::passive) {

@@ -15,13 +15,11 @@ namespace {
 using symbolic::in_quotes;
 using symbolic::ModelError;
 
-bool has_axis(const Joint& joint) {
+bool has_axis(const Joint& joint, const JointEnd& end) {
   const bool has_cone = joint.kind == JointKind::spherical && joint.range();
-  return traits(joint.kind).has_axis || has_cone;
+  const bool is_pin = joint.kind == JointKind::slot && &end == &joint.ends[1];
+  return (traits(joint.kind).has_axis && !is_pin) || has_cone;
 }
-
-/// An angle or a displacement of its own, that may be an input or an output.
-bool has_coordinate(JointKind kind) { return kind != JointKind::spherical && traits(kind).ranges > 0; }
 
 class RobotValidator {
  public:
@@ -62,8 +60,7 @@ class RobotValidator {
       require_positive(joint.length, "the length of " + what, "a length above 0", where);
     if (joint.actuated && !has_coordinate(joint.kind))
       throw ModelError(where, what + " cannot be actuated: it has no angle or displacement of its own",
-                       "an actuated joint of the kind revolute, prismatic, parallelogram, cylindrical, universal, "
-                       "sph_prs_sph or uni_prs_uni");
+                       "an actuated joint of the kind " + symbolic::listed(kind_names(true), " or "));
   }
 
   /// Each follows one joint, and nobody himself.
@@ -120,7 +117,7 @@ class RobotValidator {
       const Joint& joint = robot_.joints[output.joint];
       if (!has_coordinate(joint.kind))
         throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or displacement of its own",
-                         "a revolute, prismatic, parallelogram, cylindrical, universal, sph_prs_sph or uni_prs_uni joint");
+                         "a joint of the kind " + symbolic::listed(kind_names(true), " or "));
       if (joint.actuated)
         throw ModelError(where, what + " is of " + described(joint) + ", which is actuated: its coordinate is an input",
                          "a joint that no actuator drives");
@@ -240,11 +237,11 @@ class RobotValidator {
     const std::string on = " of " + what + " on the link " + in_quotes(robot_.links[end.link].name);
     check(end.point, "the point" + on, where);
     check(end.axis, "the axis" + on, where);
-    if (has_axis(joint)) require_direction(end.axis, "the axis" + on, where);
+    if (has_axis(joint, end)) require_direction(end.axis, "the axis" + on, where);
     if (!end.zero) return;
     const std::string zero = "the zero direction" + on;
     require_direction(*end.zero, zero, where);
-    if (has_axis(joint) && !has_length(cross(end.axis, *end.zero), zero, where))
+    if (has_axis(joint, end) && !has_length(cross(end.axis, *end.zero), zero, where))
       throw ModelError(where, zero + " lies along the axis", "a direction across the axis");
   }
 
