@@ -91,8 +91,7 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
   solve::Options limits;
   search.limits.apply(limits);
   solve::Control control(search.limits_beside(limits, taken));
-  study::Systems systems =
-      study::systems_of(question, control, [&](const study::Question&, const System&) { return !control.ended(); });
+  study::Systems systems = study::systems_of(question, control, false);
   if (systems.of_parts.size() < systems.parts.size()) return std::nullopt;
   const study::Options options{search.options(systems.of_parts.front(), *question.set), report::kPageDigits};
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));

@@ -63,16 +63,6 @@ void write_file(const std::string& path, const result::Result& result, const sol
   }
 }
 
-// What the options have to say about the system of a set.
-void check_system(SolveCommand& command, const System& system, bool is_first) {
-  if (is_first) apply_parameters(command, system);
-  options_of(command).validate(system);
-  if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
-    throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
-  if (command.proof && system.coefficient_tolerance > 0)
-    throw UsageError("--proof: expected exact coefficients; --tolerance 0 takes them as exact");
-}
-
 bool bounds_an_area(const study::Question& question) {
   return symbolic::definition(question.set).of_parts &&
          analyze::is_plane_of_lengths(question.model, question.model.outputs());
@@ -172,11 +162,10 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   question.tolerance = command.tolerance;
   if (command.checkpoint_path.empty()) refuse_without_effect(sub, {"--every"}, "--checkpoint FILE beside it");
   if (!bounds_an_area(question)) refuse_without_effect(sub, {"--area"}, "--set boundary in the plane of two lengths");
-  bool is_first = true;
-  const study::Systems systems = study::systems_of(question, control, [&](const study::Question&, const System& system) {
-    check_system(command, system, std::exchange(is_first, false));
-    return true;
-  });
+  if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
+    throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
+  const study::Systems systems = study::systems_of(question, control);
+  apply_parameters(command, systems.of_parts.front());
   check_output(command.result_path);
   command.json.check();
   const study::Options options{options_of(command), command.digits};

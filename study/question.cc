@@ -152,13 +152,12 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
   return system;
 }
 
-Systems systems_of(const Question& question, solve::Control& control,
-                   const std::function<bool(const Question&, const System&)>& go_on) {
+Systems systems_of(const Question& question, solve::Control& control, bool whole) {
   const solve::InStage stage(control, solve::Stage::model);
   Systems systems{parts_of(question, [&control] { return control.ended(); }), {}};
   for (const Question& part : systems.parts) {
     systems.of_parts.push_back(system(part));
-    if (go_on && !go_on(part, systems.of_parts.back())) break;
+    if (!whole && control.ended()) break;
   }
   control.ended();  // notes the stage
   return systems;
