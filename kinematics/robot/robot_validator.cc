@@ -1,6 +1,7 @@
 // Robot::validate(): every comparison is made in the exact arithmetic of constants. Where enclosures leave a sign open, the
 // number may be 0: an axis or a length is then refused, an equation (of a rotation matrix) accepted.
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <numeric>
 #include <set>
 
@@ -174,15 +175,10 @@ class RobotValidator {
   }
 
   void check_connections() const {
-    std::vector<std::size_t> root(robot_.links.size());
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    const auto find = [&](std::size_t i) {
-      while (root[i] != i) i = root[i] = root[root[i]];
-      return i;
-    };
-    for (const Joint& joint : robot_.joints) root[find(joint.ends[0].link)] = find(joint.ends[1].link);
-    for (std::size_t i = 1; i < root.size(); ++i) {
-      if (find(i) == find(0)) continue;
+    boost::disjoint_sets_with_storage<> joined(robot_.links.size());
+    for (const Joint& joint : robot_.joints) joined.union_set(joint.ends[0].link, joint.ends[1].link);
+    for (std::size_t i = 1; i < robot_.links.size(); ++i) {
+      if (joined.find_set(i) == joined.find_set(std::size_t{0})) continue;
       throw ModelError(at(robot_.links[i].where),
                        "no joint connects the link " + in_quotes(robot_.links[i].name) + " with the first link, " +
                            in_quotes(robot_.links[0].name) + ", which is the ground",
