@@ -9,7 +9,6 @@
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/cuik/cuik_files.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/summary.h"
 #include "corank/study/answer.h"

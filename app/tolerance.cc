@@ -1,20 +1,13 @@
 // corank tolerance: by which factor all tolerances may grow.
-#include <fmt/format.h>
-
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "corank/analyze/aspects/aspects_factor.h"
 #include "corank/analyze/clearance/tolerance_factor.h"
 #include "corank/analyze/paths/path_factor.h"
 #include "corank/app/ball_command.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/values/claim_files.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
