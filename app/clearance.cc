@@ -53,7 +53,7 @@ ExitStatus not_close(const std::string& stopped) {
 std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts, const std::string& option,
                                            const study::Question& question) {
   const std::vector<std::string> parts = parts_of(texts);
-  if (option == "--map" && std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.find('=') != p.npos; }))
+  if (option == "--map" && std::ranges::none_of(parts, [](const auto& p) { return p.find('=') != p.npos; }))
     return analyze::declared_ranges(question, parts);
   std::vector<analyze::NamedRange> region;
   for (const std::string& part : parts) region.push_back(range_of(part, {}, option));

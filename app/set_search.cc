@@ -57,7 +57,7 @@ solve::Options SetSearch::options_of(SingularitySet set) const {
 
 void SetSearch::check_effect(const CLI::App& command) const {
   const auto any = [this](auto is) {
-    return std::any_of(sets.begin(), sets.end(), [&](const std::string& s) { return is(symbolic::definition(s)); });
+    return std::ranges::any_of(sets, [&](const std::string& s) { return is(symbolic::definition(s)); });
   };
   if (!any([](const symbolic::SetDefinition& d) { return d.is_cspace(); }))
     refuse_without_effect(command, {"--cspace-sigma"}, "cspace among --sets");

@@ -87,8 +87,8 @@ long output_rates(const symbolic::Mechanism& mechanism) {
 Assembly as_asked(const Robot& robot) {
   Assembly best = draft(robot, {});
   // Several parallelograms that share sides may make each other's loops redundant on some of their branches.
-  bool in_branches = std::any_of(best.parallelograms.begin(), best.parallelograms.end(),
-                                 [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
+  bool in_branches =
+      std::ranges::any_of(best.parallelograms, [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
   if (in_branches && seems_redundant(best))
     if (Assembly whole = draft(robot, {.in_branches = false}); !seems_redundant(whole)) {
       best = std::move(whole);

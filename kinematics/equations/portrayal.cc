@@ -26,7 +26,7 @@ class Portrayal : Drafter {
         const std::string effector =
             corner(bodies_.of_link[output.link], at.translation + at.rotation * algebra_.vector(output.point, output.where),
                    output.name);
-        if (std::find(effectors_.begin(), effectors_.end(), effector) == effectors_.end()) effectors_.push_back(effector);
+        if (std::ranges::find(effectors_, effector) == effectors_.end()) effectors_.push_back(effector);
       }
     const bool solid = add_shapes();
     for (std::size_t body = 1; body < bodies_.size(); ++body)
@@ -116,7 +116,7 @@ class Portrayal : Drafter {
       sorted.emplace_back(
           std::atan2(dot_of(from_middle(k), across) / (length(normal) + 1e-300), dot_of(from_middle(k), first)),
           corners[k].name);
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     std::vector<std::string> names;
     for (const auto& [angle, name] : sorted) names.push_back(name);
     return names;
@@ -168,8 +168,7 @@ class Portrayal : Drafter {
   void add_body(std::size_t body) {
     std::vector<Corner> corners;
     for (const Corner& c : corners_[body])
-      if (std::none_of(corners.begin(), corners.end(), [&](const Corner& other) { return other.name == c.name; }))
-        corners.push_back(c);
+      if (std::ranges::none_of(corners, [&](const Corner& other) { return other.name == c.name; })) corners.push_back(c);
     if (corners.size() < 2) return;
     const std::string body_name =
         bodies_.has_shapes(robot_, body) ? "" : name_of(body);  // what is drawn in their place is not the body

@@ -126,7 +126,7 @@ class SpatialRobot : public Drafter {
   void orient() {
     const std::vector<Dyad> dyads = dyads_of(robot_, bodies_, algebra_, tree_, false);
     const auto is_dyad = [&](const TreeEdge& edge) {
-      return std::any_of(dyads.begin(), dyads.end(), [&](const Dyad& d) { return d.inner.joint == edge.joint; });
+      return std::ranges::any_of(dyads, [&](const Dyad& d) { return d.inner.joint == edge.joint; });
     };
     for (const TreeEdge& edge : tree_.edges)
       if (!is_dyad(edge)) frames_.orient(edge);

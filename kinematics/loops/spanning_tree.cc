@@ -23,7 +23,7 @@ SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algeb
   const std::size_t n = bodies.joints.size();
   std::vector<bool> in_forest(n, false), reached(bodies.size(), false);
   boost::disjoint_sets_with_storage<> forest(bodies.size());
-  const int last = n == 0 ? 0 : *std::max_element(order.begin(), order.end());
+  const int last = n == 0 ? 0 : *std::ranges::max_element(order);
   for (int turn = 1; turn <= last; ++turn)
     for (std::size_t j = 0; j < n; ++j)
       if (order[j] == turn) {
@@ -77,7 +77,7 @@ SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algeb
       const auto any = [&](std::size_t j) { return order[j] == 0 && !is_rod(bodies.joints[j].kind); };
       if (!deep) {
         for (const std::size_t body : together) extend(body, false, any);
-      } else if (std::any_of(together.begin(), together.end(), [&](std::size_t body) { return extend(body, true, any); })) {
+      } else if (std::ranges::any_of(together, [&](std::size_t body) { return extend(body, true, any); })) {
         waiting.insert(waiting.end() - 1, together.begin(), together.end());  // for later: the new body comes next
       }
     }
@@ -118,7 +118,7 @@ std::vector<Dyad> dyads_of(const Robot& robot, const Bodies& bodies, const Algeb
     if (taken[edge.joint] || taken[outer]) continue;
     if (!is_passive_revolute(robot, bodies.joints[edge.joint]) || !is_passive_revolute(robot, bodies.joints[outer]))
       continue;
-    const bool closes = std::find(tree.chords.begin(), tree.chords.end(), outer) != tree.chords.end();
+    const bool closes = std::ranges::find(tree.chords, outer) != tree.chords.end();
     if (!closes && !reached) continue;
     const BodyJoint &inner = bodies.joints[edge.joint], &next = bodies.joints[outer];
     const std::size_t near = next.ends[0].body == link ? 0 : 1;

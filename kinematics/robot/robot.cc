@@ -7,7 +7,7 @@ namespace {
 
 template <typename Named>
 int find(const std::vector<Named>& list, const std::string& name) {
-  const auto found = std::find_if(list.begin(), list.end(), [&](const Named& item) { return item.name == name; });
+  const auto found = std::ranges::find_if(list, [&](const Named& item) { return item.name == name; });
   return found == list.end() ? -1 : static_cast<int>(found - list.begin());
 }
 

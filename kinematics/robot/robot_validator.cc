@@ -222,7 +222,7 @@ class RobotValidator {
     return scope_.sign(e, what, where).value_or(0) != 0;
   }
   bool has_length(const Vector& v, const std::string& what, const symbolic::SourceLocation& where) {
-    return std::any_of(v.begin(), v.end(), [&](const Expression& e) { return is_surely_not_zero(e, what, where); });
+    return std::ranges::any_of(v, [&](const Expression& e) { return is_surely_not_zero(e, what, where); });
   }
 
   void require_direction(const Vector& v, const std::string& what, const symbolic::SourceLocation& where) {
