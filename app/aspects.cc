@@ -19,8 +19,7 @@ struct AspectsCommand {
 };
 
 ExitStatus aspects(AspectsCommand command) {
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   const bool drawn = command.output.ends_with(".svg");
   command.options.certificate = command.output.ends_with(".h5");
   if (!command.output.empty() && !drawn && !command.options.certificate)

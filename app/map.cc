@@ -89,8 +89,7 @@ ExitStatus write_map(const CLI::App& sub, MapCommand command) {
     refuse_without_effect(sub, {"--set", "--kernel", "--corank", "--require", "--cusps"}, "no --orientation beside it");
   if (command.count != "solutions")
     refuse_without_effect(sub, {"--no-boundary", "--require", "--orientation", "--cusps"}, "--count solutions");
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   const int n = command.options.resolution;
   if (n < analyze::kTiles || n > 1024 || (n & (n - 1)) != 0)
     throw UsageError(fmt::format("--resolution {}: expected a power of two from {} to 1024", n, analyze::kTiles));

@@ -1,13 +1,13 @@
 // corank solve: encloses a set in boxes with verdicts, prints a summary, writes result files.
 #include "corank/solve/search/solve.h"
 
-#include <thread>
 #include <utility>
 
 #include "corank/analyze/maps/area_by_boundary.h"
 #include "corank/app/box_files.h"
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
+#include "corank/core/threads.h"
 #include "corank/result/cuik/cuik_files.h"
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/summary.h"
@@ -132,8 +132,7 @@ void remove_checkpoint(const SolveCommand& command, const result::Result& result
 ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& systems, const solve::Options& options,
                         solve::Control& control) {
   const solve::CostEstimate cost = study::estimate(systems, options, control);
-  const int threads =
-      command.limits.threads > 0 ? command.limits.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int threads = threads_for(command.limits.threads);
   if (control.ended()) {
     fmt::print(stderr, "corank: the trial was ended early\n");
     return kIncomplete;
@@ -211,7 +210,7 @@ ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {
     const Resumed resumed(sub, command);
     return solve_model(sub, resumed.command, &resumed.checkpoint);
   }
-  command.json.give_back(command.question.file);
+  command.json.begin(command.question.file);
   return solve_model(sub, std::move(command), nullptr);
 }
 

@@ -16,8 +16,7 @@ struct TopologyCommand {
 };
 
 ExitStatus topology(TopologyCommand command) {
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   if (!command.output.empty() && !command.output.ends_with(".h5"))
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .h5", command.output));
   if (!command.output.empty()) result::check_writable(command.output);
