@@ -39,6 +39,18 @@ TEST(Slots, MayMoveAndCarryALinkInThePlane) {
   EXPECT_EQ(a.mobility, 1);
 }
 
+// On the ground as a block on its rail, elsewhere as a line to the pin.
+TEST(Slots, AreDrawn) {
+  using Kind = symbolic::DrawingPart::Kind;
+  const auto drawn = [](const std::string& slot, Kind kind) {
+    const Assembly a = assembled(quick_return(slot));
+    return std::ranges::count(a.mechanism.drawing().parts, kind, &symbolic::DrawingPart::kind);
+  };
+  EXPECT_EQ(drawn("slot s : base (0,0,0)+(1,0,0) crank (1,0,0) range [0, 3]", Kind::slider), 1);
+  EXPECT_EQ(drawn("slot s : lever (0,0,0)+(1,0,0) crank (1,0,0) range [0, 3]", Kind::slider), 0);
+  EXPECT_EQ(drawn("slot s : lever (0,0,0)+(1,0,0) crank (1,0,0) range [0, 3]", Kind::joint), 1);
+}
+
 // Space: each joint of a chain says where the next link is; the ball is where the slot says.
 TEST(Slots, HoldABallOnALineInSpace) {
   const Assembly a = assembled(
