@@ -25,10 +25,11 @@ class Direction {
           joints.push_back(j);
         }
     }
-    // A rod between bodies that move in the plane, or parallel to it, is one of the plane.
+    // A rod between bodies that move in the plane, or parallel to it, is one of the plane, unless it asks for more than a
+    // length.
     for (std::size_t j = 0; j < taken.size(); ++j) {
-      const auto& ends = bodies.joints[j].ends;
-      if (is_rod(bodies.joints[j].kind) && normals.contains(bodies.group[ends[0].body]) &&
+      const auto& [index, kind, ends] = bodies.joints[j];
+      if (is_rod(kind) && kind != JointKind::universal_rod && normals.contains(bodies.group[ends[0].body]) &&
           normals.contains(bodies.group[ends[1].body]))
         joints.push_back(j);
     }
