@@ -31,7 +31,7 @@ std::vector<Pair> pairs_of(const std::vector<std::string>& words, const result::
 std::string angle_name(const result::SolFile& boxes, const Pair& pair) {
   const auto name = [&boxes](int v) { return boxes.variables.at(v); };
   std::string text = "atan2_" + name(pair.sine) + "_" + name(pair.cosine);
-  while (std::find(boxes.variables.begin(), boxes.variables.end(), text) != boxes.variables.end()) text += "_";
+  while (std::ranges::find(boxes.variables, text) != boxes.variables.end()) text += "_";
   return text;
 }
 

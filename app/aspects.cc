@@ -1,21 +1,10 @@
 // corank aspects: the pieces into which its singularities divide a mechanism's C-space.
 #include "corank/analyze/aspects/aspects.h"
 
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "corank/analyze/maps/area_by_boundary.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/html/page_aspects.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/values/claim_files.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
@@ -30,8 +19,7 @@ struct AspectsCommand {
 };
 
 ExitStatus aspects(AspectsCommand command) {
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   const bool drawn = command.output.ends_with(".svg");
   command.options.certificate = command.output.ends_with(".h5");
   if (!command.output.empty() && !drawn && !command.options.certificate)

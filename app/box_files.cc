@@ -24,7 +24,7 @@ int variable_index(const result::SolFile& boxes, const std::string& file, const 
 
 ExitStatus completeness(const result::SolFile& boxes, const std::string& file) {
   const auto pending = [](const result::SolBox& box) { return box.verdict == Verdict::pending; };
-  return completeness(std::none_of(boxes.boxes.begin(), boxes.boxes.end(), pending), file);
+  return completeness(std::ranges::none_of(boxes.boxes, pending), file);
 }
 
 ExitStatus completeness(bool complete, const std::string& file) {

@@ -53,7 +53,7 @@ ExitStatus not_close(const std::string& stopped) {
 std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts, const std::string& option,
                                            const study::Question& question) {
   const std::vector<std::string> parts = parts_of(texts);
-  if (option == "--map" && std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.find('=') != p.npos; }))
+  if (option == "--map" && std::ranges::none_of(parts, [](const auto& p) { return p.find('=') != p.npos; }))
     return analyze::declared_ranges(question, parts);
   std::vector<analyze::NamedRange> region;
   for (const std::string& part : parts) region.push_back(range_of(part, {}, option));
@@ -103,9 +103,8 @@ std::vector<Standing> postures_of(ClearanceRun& run) {
 
 ExitStatus run_clearance(ClearanceCommand command) {
   command.require_center("except with --best or --map");
-  command.json.give_back(command.question.file);
+  command.json.begin(command.question.file);
   ClearanceRun run(command);
-  command.json.check();
   if (!command.proof_stem.empty()) {
     check_output(free_file(command));
     check_output(nearest_file(command));
@@ -122,10 +121,9 @@ ExitStatus run_clearance(ClearanceCommand command) {
 
 // --best: the centre of the largest ball in a region.
 ExitStatus run_best(ClearanceCommand command) {
-  command.json.give_back(command.question.file);
+  command.json.begin(command.question.file);
   ClearanceRun run(command);
   const std::vector<analyze::NamedRange> region = region_of(command.best, "--best", run.question);
-  command.json.check();
   const analyze::BestOptions options{.precision = command.precision, .progress = shown_radius(run.line, "cells")};
   const analyze::Best best = analyze::best_center(run.question, run.ball, region, options, run.search, run.control());
   run.line.clear();
@@ -152,14 +150,13 @@ report::HeatMap picture(const analyze::ClearanceMap& map) {
 
 // --map: the clearance over a grid of centres, as a table or a picture.
 ExitStatus run_map(ClearanceCommand command) {
-  command.json.give_back(command.question.file);
+  command.json.begin(command.question.file);
   const auto is = [&](const char* end) { return command.output.ends_with(end); };
   if (!is(".svg") && !is(".csv") && !is(".json"))
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .svg, .csv or .json", command.output));
   ClearanceRun run(command);
   const std::vector<analyze::NamedRange> region = region_of(command.map, "--map", run.question);
   check_output(command.output);
-  command.json.check();
   analyze::MapOptions options{.grid = command.grid, .precision = command.precision};
   options.progress = [&run](std::size_t done, std::size_t all) { run.line.show(fmt::format("{} of {} cells", done, all)); };
   const analyze::ClearanceMap map =

@@ -30,8 +30,7 @@ std::string CuspidalCommand::line() const {
 }
 
 ExitStatus find_out(CuspidalCommand command) {
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   check_output(command.output);
   check_output(command.report);
   if (!command.of.empty()) command.options.of = analyze::avoid_from_string(command.of);

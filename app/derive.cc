@@ -111,8 +111,7 @@ std::string text_of(const Derived& d, const std::string& format) {
 }
 
 ExitStatus derive(const CLI::App& sub, DeriveCommand command) {
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   if (command.format == "model" && !command.json.given())
     refuse_without_effect(sub, {"--set", "--kernel", "--corank"}, "another --format: the model is the same for all sets");
   const bool text_is_asked = !command.json.takes_standard_output() || !command.path.empty();

@@ -8,6 +8,7 @@
 #include "corank/app/gallery_run.h"
 #include "corank/app/stored_run.h"
 #include "corank/app/subcommands.h"
+#include "corank/core/threads.h"
 #include "corank/report/html/gallery_page.h"
 
 namespace corank::app {
@@ -106,8 +107,7 @@ ExitStatus gallery(GalleryCommand command) {
   result::check_writable(folder / "index.html");
   const Interrupt interrupt;
   const fs::path program = own_program();
-  const int cores =
-      command.threads > 0 ? command.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int cores = threads_for(command.threads);
   const std::vector<report::GalleryResult> results =
       run_all(entries,
               {program, result::version() + " " + hash_of(result::file_bytes(program)), folder, command.fresh, 1,

@@ -1,20 +1,9 @@
 // corank map: a number over a plane of two constants or coordinates.
-#include <fmt/format.h>
-
-#include <memory>
-
 #include "corank/analyze/maps/parameter_map.h"
 #include "corank/analyze/postures/posture_map.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/pictures/parameter_picture.h"
 #include "corank/report/pictures/portrait.h"
-#include "corank/result/files/result_file.h"
-#include "corank/result/values/words.h"
 #include "corank/symbolic/model/model_file.h"
 
 namespace corank::app {
@@ -100,8 +89,7 @@ ExitStatus write_map(const CLI::App& sub, MapCommand command) {
     refuse_without_effect(sub, {"--set", "--kernel", "--corank", "--require", "--cusps"}, "no --orientation beside it");
   if (command.count != "solutions")
     refuse_without_effect(sub, {"--no-boundary", "--require", "--orientation", "--cusps"}, "--count solutions");
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   const int n = command.options.resolution;
   if (n < analyze::kTiles || n > 1024 || (n & (n - 1)) != 0)
     throw UsageError(fmt::format("--resolution {}: expected a power of two from {} to 1024", n, analyze::kTiles));

@@ -40,8 +40,7 @@ std::string PathCommand::line() const {
 
 ExitStatus path(PathCommand command) {
   if (command.avoid.empty()) command.avoid = command.question.require.empty() ? "forward" : "requirements";
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   if (!command.question.require.empty() && command.avoid != "requirements")
     throw UsageError("--require: without effect; expected --avoid requirements, or no --avoid");
   LimitedRun run({.time = command.time_limit});

@@ -25,7 +25,6 @@ struct PosturesCommand {
 ExitStatus find_postures_of_table(const PosturesCommand& command) {
   if (!command.output.empty() && !command.output.ends_with(".csv"))
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .csv", command.output));
-  command.json.check();
   if (!command.output.empty()) result::check_writable(command.output);
   LimitedRun run({.time = command.time_limit});
   const analyze::Table poses = analyze::parse_table(symbolic::read_text(command.table), command.table);
@@ -48,7 +47,7 @@ ExitStatus find_postures_of_table(const PosturesCommand& command) {
 }
 
 ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
-  command.json.give_back(command.question.file);
+  command.json.begin(command.question.file);
   if (!command.table.empty()) {
     refuse_without_effect(sub, {"--at", "--orientation"}, "no --table beside it");
     return find_postures_of_table(command);
@@ -56,7 +55,6 @@ ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
   refuse_without_effect(sub, {"--output", "--against", "--within"}, "--table beside it");
   if (command.at.empty() && command.orientation.turns.empty())
     throw UsageError("--at is required; corank postures --help tells more");
-  command.json.check();
   LimitedRun run({.time = command.time_limit});
   std::vector<symbolic::Expression> values;
   analyze::PostureQuestion question{.question = load(command.question), .given = {}};

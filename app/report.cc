@@ -146,8 +146,7 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
                            "--max-boxes", "--max-found", "--time-limit", "--memory-limit", "--proof"},
                           "no --results beside it: these sets are not solved again");
   command.search.check_effect(sub);
-  if (command.results.empty()) command.json.give_back(command.question.file);
-  command.json.check();
+  command.results.empty() ? command.json.begin(command.question.file) : command.json.check();
   if (!command.results.empty() && !command.question.file.empty())
     throw UsageError("--results: expected no FILE beside it: the results hold their model");
   command.search.validate();

@@ -25,9 +25,7 @@ constexpr std::array<std::string_view, 3> kMayChange{"--threads", "-o", "--digit
 constexpr std::array<std::string_view, 9> kOfRefine{
     "--refine", "--sigma", "--sigma-length", "--sigma-angle", "--threads", "-o", "--time-limit", "--memory-limit", "--json"};
 
-bool is_among(const auto& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+bool is_among(const auto& names, const std::string& name) { return std::ranges::find(names, name) != names.end(); }
 
 std::optional<std::string> text_of(const std::string& path) {
   try {

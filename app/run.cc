@@ -205,7 +205,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
     return say(kIncomplete, stopped.what());
   } catch (const solve::OptionError& error) {
     std::string option = error.option();
-    std::replace(option.begin(), option.end(), '_', '-');
+    std::ranges::replace(option, '_', '-');
     return say(kUsage, fmt::format("--{}: {}; corank --help tells more", option, error.reason()));
   } catch (const symbolic::ModelError& error) {
     return say(kBadInput, error.what());

@@ -57,7 +57,7 @@ solve::Options SetSearch::options_of(SingularitySet set) const {
 
 void SetSearch::check_effect(const CLI::App& command) const {
   const auto any = [this](auto is) {
-    return std::any_of(sets.begin(), sets.end(), [&](const std::string& s) { return is(symbolic::definition(s)); });
+    return std::ranges::any_of(sets, [&](const std::string& s) { return is(symbolic::definition(s)); });
   };
   if (!any([](const symbolic::SetDefinition& d) { return d.is_cspace(); }))
     refuse_without_effect(command, {"--cspace-sigma"}, "cspace among --sets");
@@ -91,8 +91,7 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
   solve::Options limits;
   search.limits.apply(limits);
   solve::Control control(search.limits_beside(limits, taken));
-  study::Systems systems =
-      study::systems_of(question, control, [&](const study::Question&, const System&) { return !control.ended(); });
+  study::Systems systems = study::systems_of(question, control, false);
   if (systems.of_parts.size() < systems.parts.size()) return std::nullopt;
   const study::Options options{search.options(systems.of_parts.front(), *question.set), report::kPageDigits};
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));

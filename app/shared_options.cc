@@ -116,9 +116,10 @@ void JsonOption::add(CLI::App& sub, const std::string& what, const std::string& 
                 ->expected(0, 1);
 }
 
-void JsonOption::give_back(std::string& input, const std::string& name) {
+void JsonOption::begin(std::string& input, const std::string& name) {
   if (input.empty() && path_ && !path_->empty()) input.swap(*path_);
   if (input.empty()) throw UsageError(name + " is required; corank --help tells more");
+  check();
 }
 
 void JsonOption::check() const {

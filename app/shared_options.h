@@ -80,9 +80,9 @@ class JsonOption {
   /// Of the file, "" for standard output. Requires that it is given.
   std::string path() const { return path_.value_or(""); }
 
-  /// `--json FILE` without another file: CLI11 took it for the path. `name`: "FILE". Throws UsageError where there is no
-  /// input either way.
-  void give_back(std::string& input, const std::string& name = "FILE");
+  /// check(), once the input is known: in `--json FILE` without another file CLI11 took it for the path. `name`: "FILE".
+  /// Throws UsageError where there is no input either way.
+  void begin(std::string& input, const std::string& name = "FILE");
   /// Throws as check_output() does.
   void check() const;
   /// Writes or prints the text, where it is asked for. True: the table is to be printed, too.

@@ -1,15 +1,14 @@
 // corank solve: encloses a set in boxes with verdicts, prints a summary, writes result files.
 #include "corank/solve/search/solve.h"
 
-#include <thread>
 #include <utility>
 
 #include "corank/analyze/maps/area_by_boundary.h"
 #include "corank/app/box_files.h"
 #include "corank/app/solve_command.h"
 #include "corank/app/subcommands.h"
+#include "corank/core/threads.h"
 #include "corank/result/cuik/cuik_files.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/summary.h"
 #include "corank/study/answer.h"
@@ -61,16 +60,6 @@ void write_file(const std::string& path, const result::Result& result, const sol
   } else {
     result::write_result(path, result, [&control] { return control.overdue(); });
   }
-}
-
-// What the options have to say about the system of a set.
-void check_system(SolveCommand& command, const System& system, bool is_first) {
-  if (is_first) apply_parameters(command, system);
-  options_of(command).validate(system);
-  if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
-    throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
-  if (command.proof && system.coefficient_tolerance > 0)
-    throw UsageError("--proof: expected exact coefficients; --tolerance 0 takes them as exact");
 }
 
 bool bounds_an_area(const study::Question& question) {
@@ -143,8 +132,7 @@ void remove_checkpoint(const SolveCommand& command, const result::Result& result
 ExitStatus say_estimate(const SolveCommand& command, const std::vector<System>& systems, const solve::Options& options,
                         solve::Control& control) {
   const solve::CostEstimate cost = study::estimate(systems, options, control);
-  const int threads =
-      command.limits.threads > 0 ? command.limits.threads : static_cast<int>(std::thread::hardware_concurrency());
+  const int threads = threads_for(command.limits.threads);
   if (control.ended()) {
     fmt::print(stderr, "corank: the trial was ended early\n");
     return kIncomplete;
@@ -172,11 +160,10 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   question.tolerance = command.tolerance;
   if (command.checkpoint_path.empty()) refuse_without_effect(sub, {"--every"}, "--checkpoint FILE beside it");
   if (!bounds_an_area(question)) refuse_without_effect(sub, {"--area"}, "--set boundary in the plane of two lengths");
-  bool is_first = true;
-  const study::Systems systems = study::systems_of(question, control, [&](const study::Question&, const System& system) {
-    check_system(command, system, std::exchange(is_first, false));
-    return true;
-  });
+  if (command.proof && std::filesystem::path(command.result_path).extension() != ".h5")
+    throw UsageError("--proof: expected -o RESULT.h5, the file that keeps the proof");
+  const study::Systems systems = study::systems_of(question, control);
+  apply_parameters(command, systems.of_parts.front());
   check_output(command.result_path);
   command.json.check();
   const study::Options options{options_of(command), command.digits};
@@ -223,7 +210,7 @@ ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {
     const Resumed resumed(sub, command);
     return solve_model(sub, resumed.command, &resumed.checkpoint);
   }
-  command.json.give_back(command.question.file);
+  command.json.begin(command.question.file);
   return solve_model(sub, std::move(command), nullptr);
 }
 

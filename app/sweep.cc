@@ -172,8 +172,7 @@ report::Figures draw_members(const std::filesystem::path& folder, const std::vec
 
 ExitStatus write_sweep(const CLI::App& sub, SweepCommand command) {
   command.search.check_effect(sub);
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   command.search.validate();
   const Family family = family_of(command.question.definitions);
   const std::vector<Plan> plans = plan_all(command, family);

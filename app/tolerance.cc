@@ -1,20 +1,13 @@
 // corank tolerance: by which factor all tolerances may grow.
-#include <fmt/format.h>
-
 #include <cmath>
-#include <memory>
 #include <optional>
 
 #include "corank/analyze/aspects/aspects_factor.h"
 #include "corank/analyze/clearance/tolerance_factor.h"
 #include "corank/analyze/paths/path_factor.h"
 #include "corank/app/ball_command.h"
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
 #include "corank/result/values/claim_files.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
@@ -47,7 +40,6 @@ ExitStatus find_without_ball(const ToleranceCommand& command, const std::string&
         std::pair(!command.ranges.empty(), "--range"), std::pair(!command.question.set.empty(), "--set"),
         std::pair(!with_requirements && !command.question.require.empty(), "--require")})
     if (given) throw UsageError(fmt::format("{}: without effect beside --keep {}", name, what));
-  command.json.check();
   const solve::Options search = command.search();
   LimitedRun run(limits_of(search, nullptr));
   ProgressLine line;
@@ -81,12 +73,11 @@ ExitStatus find_path_factor(const ToleranceCommand& command, const std::string& 
 }
 
 ExitStatus find_factor(ToleranceCommand command) {
-  command.json.give_back(command.question.file);
+  command.json.begin(command.question.file);
   if (command.keep == "aspects") return find_aspects_factor(command);
   if (command.keep.starts_with("path ")) return find_path_factor(command, command.keep.substr(5));
   command.options.radius = radius_of(command.keep);
   command.require_center();
-  command.json.check();
   const solve::Options search = command.search();
   LimitedRun run(limits_of(search, nullptr));
   ProgressLine line;

@@ -1,19 +1,8 @@
 // corank topology: the shape of a C-space, or of the solutions of a plain system.
 #include "corank/analyze/topology/topology.h"
 
-#include <fmt/format.h>
-
-#include <memory>
-
-#include "corank/app/exit_status.h"
-#include "corank/app/limited_run.h"
-#include "corank/app/progress.h"
-#include "corank/app/question.h"
-#include "corank/app/shared_options.h"
 #include "corank/app/subcommands.h"
-#include "corank/result/files/result_file.h"
 #include "corank/result/values/claim_files.h"
-#include "corank/result/values/words.h"
 
 namespace corank::app {
 namespace {
@@ -27,8 +16,7 @@ struct TopologyCommand {
 };
 
 ExitStatus topology(TopologyCommand command) {
-  command.json.give_back(command.question.file);
-  command.json.check();
+  command.json.begin(command.question.file);
   if (!command.output.empty() && !command.output.ends_with(".h5"))
     throw UsageError(fmt::format("-o {}: expected a file name that ends in .h5", command.output));
   if (!command.output.empty()) result::check_writable(command.output);

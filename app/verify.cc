@@ -85,8 +85,7 @@ constexpr std::array kCertificates{Certificate{result::kPathKind.format, &verify
                                    Certificate{result::kMapKind.format, &verify_certificate<&result::read_map>}};
 
 ExitStatus verify(VerifyCommand command) {
-  command.json.give_back(command.input, "RESULT");
-  command.json.check();
+  command.json.begin(command.input, "RESULT");
   const Interrupt interrupt;
   Watch watch(command.time_limit, Interrupt::stop(), [&command](const std::string& stage) { give_up(command, stage); });
   const solve::Control control(of_command({.time = command.time_limit}));

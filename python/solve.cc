@@ -27,14 +27,7 @@ py::tuple solve_question(const study::Question& question, const solve::Options& 
   return said(progress, [question, options, digits](Watcher& watcher) {
     solve::Control control(limits_of(options, &watcher.stop));
     watcher.follow(control);
-    const study::Systems systems =
-        study::systems_of(question, control, [&options](const study::Question&, const System& system) {
-          options.validate(system);
-          if (options.proof && system.coefficient_tolerance > 0)
-            throw std::invalid_argument("proof: expected exact coefficients; tolerance=0 takes them as exact");
-          return true;
-        });
-    return std::tuple(Result(study::answer(systems, {options, digits}, control)));
+    return std::tuple(Result(study::answer(study::systems_of(question, control), {options, digits}, control)));
   });
 }
 

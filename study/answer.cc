@@ -94,6 +94,12 @@ result::Result answer(const Question& question, const Options& options) {
   return answer(systems_of(question, control), options, control);
 }
 
+void check_options(const solve::Options& options, const System& system) {
+  options.validate(system);
+  if (options.proof && system.coefficient_tolerance > 0)
+    throw solve::OptionError("proof", "expected exact coefficients; a tolerance of 0 takes them as exact");
+}
+
 Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control) {
   solve::Options searched = options.search;
   NodeSearch nodes;
@@ -128,6 +134,7 @@ result::Result join(const std::vector<Question>& parts, std::vector<result::Resu
 
 result::Result answer(const Systems& systems, const Options& options, solve::Control& control, RunJournal* journal) {
   const auto& [parts, of_parts] = systems;
+  for (const System& system : of_parts) check_options(options.search, system);
   if (journal) journal->expect(parts.size());
   CORANK_CHECK(!parts.empty() && parts.size() == of_parts.size());
   std::vector<result::Result> results;

@@ -26,7 +26,7 @@ result::Result answer(const Question& question, const Options& options = {});
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
                       RunJournal* journal = nullptr);
 
-/// The same of all parts of a question (systems_of), in one run.
+/// The same of all parts of a question (systems_of), in one run. Throws std::invalid_argument before the first is searched.
 result::Result answer(const Systems& systems, const Options& options, solve::Control& control,
                       RunJournal* journal = nullptr);
 

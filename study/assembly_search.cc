@@ -29,7 +29,7 @@ std::optional<Cover> at_its_middle(const System& system, const CoverBox& sheet, 
     side = Interval(side.mid());
   }
   Cover cover = search(system, options, control);
-  if (!std::any_of(cover.boxes.begin(), cover.boxes.end(), is_inside)) return std::nullopt;
+  if (!std::ranges::any_of(cover.boxes, is_inside)) return std::nullopt;
   return cover;
 }
 
@@ -54,9 +54,9 @@ bool has_nearly_a_solution(System system, solve::Control& control) {
   system.coefficient_tolerance = result::kRounding;
   const Cover cover = search(system, {.coarser = kFine, .max_solutions = 1}, control);
   const auto ending = control.ending();  // by the first proven sheet, which then is not cut
-  return (ending && ending->by == solve::Limit::solutions) ||
-         std::any_of(cover.boxes.begin(), cover.boxes.end(),
-                     [](const CoverBox& box) { return box.verdict == Verdict::partial || holds_a_solution(box); });
+  return (ending && ending->by == solve::Limit::solutions) || std::ranges::any_of(cover.boxes, [](const CoverBox& box) {
+           return box.verdict == Verdict::partial || holds_a_solution(box);
+         });
 }
 
 }  // namespace

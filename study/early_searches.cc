@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "corank/core/threads.h"
 #include "corank/symbolic/model/set_definition.h"
 
 namespace corank::study {
@@ -17,8 +18,8 @@ bool goes_without_model(std::optional<symbolic::SingularitySet> set) {
   return !definition.of_parts && definition.part != symbolic::LocusPart::nodes;
 }
 
-std::size_t workers(std::size_t tasks, int threads) {
-  if (threads <= 0) threads = static_cast<int>(std::thread::hardware_concurrency());
+std::size_t workers(std::size_t tasks, int asked) {
+  const int threads = threads_for(asked);
   return threads > 1 ? std::min(tasks, static_cast<std::size_t>(threads)) : 0;
 }
 

@@ -20,8 +20,7 @@ using symbolic::ModelError;
 
 void put_in(const std::vector<result::ConstantOverride>& overrides, kinematics::Robot& robot) {
   for (const result::ConstantOverride& o : overrides) {
-    const auto known =
-        std::find_if(robot.constants.begin(), robot.constants.end(), [&](const auto& c) { return c.name == o.name; });
+    const auto known = std::ranges::find_if(robot.constants, [&](const auto& c) { return c.name == o.name; });
     if (known == robot.constants.end())
       throw ModelError({robot.file, 0, 0}, "there is no constant '" + o.name + "'", "a constant of the robot");
     const symbolic::Constant read = symbolic::parse_constant(o.name, o.expression, "-D " + o.name);
@@ -89,8 +88,8 @@ std::optional<std::string> only_positions(const kinematics::Robot& robot, const 
   std::string list;
   const auto& rates = assembly.mechanism.rates();
   for (const kinematics::Output& o : robot.outputs) {
-    const bool turns = std::any_of(rates.begin(), rates.end(),
-                                   [&](const symbolic::Rate& rate) { return rate.name.starts_with("w_" + o.name + "_"); });
+    const bool turns =
+        std::ranges::any_of(rates, [&](const symbolic::Rate& rate) { return rate.name.starts_with("w_" + o.name + "_"); });
     if (o.kind != kinematics::Output::Kind::pose || !o.kept || turns || rates.empty()) continue;
     list += (list.empty() ? "" : ", ") + o.name;
   }

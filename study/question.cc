@@ -49,7 +49,7 @@ Components components_wanted(const Question& q) {
   const bool own = q.model.has_own_velocity_equation();
   const long columns = own ? std::ssize(q.model.rates()) : std::ssize(all),
              rows = own ? std::ssize(q.model.velocity_equations()) : std::ssize(q.model.equations());
-  if (columns - rows - std::count_if(all.begin(), all.end(), symbolic::is_fixed) >= kLeastMobility) return Components::yes;
+  if (columns - rows - std::ranges::count_if(all, symbolic::is_fixed) >= kLeastMobility) return Components::yes;
   const bool is_long = rows >= kLongKernel || (rows >= kLongKernelOfAnArm && symbolic::free_coordinates(q.model));
   return is_long ? Components::if_simple : Components::no;
 }
@@ -103,8 +103,7 @@ std::vector<Question> parts_of(const Question& question, const Ended& ended) {
     parts.back().part = std::move(part);
   }
   if (parts.empty() || (of_requirements && parts.size() == 1)) return {question};
-  if (wanted == Components::if_simple)
-    return std::any_of(parts.begin(), parts.end(), has_kernel) ? std::vector{question} : parts;
+  if (wanted == Components::if_simple) return std::ranges::any_of(parts, has_kernel) ? std::vector{question} : parts;
   if (parts.size() == 1 && !question.in_parts.value_or(false) && !is_better_than_whole(parts[0])) return {question};
   return parts;
 }
@@ -152,13 +151,12 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
   return system;
 }
 
-Systems systems_of(const Question& question, solve::Control& control,
-                   const std::function<bool(const Question&, const System&)>& go_on) {
+Systems systems_of(const Question& question, solve::Control& control, bool whole) {
   const solve::InStage stage(control, solve::Stage::model);
   Systems systems{parts_of(question, [&control] { return control.ended(); }), {}};
   for (const Question& part : systems.parts) {
     systems.of_parts.push_back(system(part));
-    if (go_on && !go_on(part, systems.of_parts.back())) break;
+    if (!whole && control.ended()) break;
   }
   control.ended();  // notes the stage
   return systems;

@@ -1,7 +1,6 @@
 // A question about a mechanism as a plain value: which set of which model; and the system whose solutions answer it.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -58,12 +57,11 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
 /// The parts of a question, each with its system.
 struct Systems {
   std::vector<Question> parts;
-  std::vector<System> of_parts;  ///< as many, unless `go_on` has ended it
+  std::vector<System> of_parts;  ///< as many, if they are to be whole
 };
 
-/// parts_of() and system(), in the stage `model` of the control, which notes where it ends. `go_on` is called with each
-/// system that is made; false: the others are not made.
-Systems systems_of(const Question& question, solve::Control& control,
-                   const std::function<bool(const Question& part, const System& system)>& go_on = {});
+/// parts_of() and system(), in the stage `model` of the control, which notes where it ends. Unless the systems are to be
+/// whole, no more are made once the control has ended.
+Systems systems_of(const Question& question, solve::Control& control, bool whole = true);
 
 }  // namespace corank::study

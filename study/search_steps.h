@@ -17,6 +17,9 @@ struct Asked {
   std::uint64_t processed_before = 0;  ///< boxes, to find out where to search
 };
 
+/// Throws solve::OptionError where the options do not go with the system.
+void check_options(const solve::Options& options, const System& system);
+
 /// `system`: system(question). Throws as solve::prepare does.
 Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control);
 

@@ -27,13 +27,8 @@ Options of_cluster(Options options) {
 }  // namespace
 
 SpreadRun::SpreadRun(const Question& question, Options options, const std::atomic<bool>* stop)
-    : options_(of_cluster(options)), control_(limits_of(options_.search, stop)) {
-  systems_ = systems_of(question, control_, [this](const Question&, const System& system) {
-    options_.search.validate(system);
-    if (options_.search.proof && system.coefficient_tolerance > 0)
-      throw solve::OptionError("proof", "expected exact coefficients; a tolerance of 0 takes them as exact");
-    return true;
-  });
+    : options_(of_cluster(options)), control_(limits_of(options_.search, stop)), systems_(systems_of(question, control_)) {
+  for (const System& system : systems_.of_parts) check_options(options_.search, system);
 }
 
 solve::Coordinator& SpreadRun::begin(std::optional<std::string> state) {

@@ -18,7 +18,8 @@ int count_mobility(const Bodies& bodies, Space space) {
   const int full = space == Space::spatial ? 6 : 3;
   int mobility = full * (static_cast<int>(bodies.size()) - 1);
   for (const BodyJoint& j : bodies.joints) {
-    const int freedom = traits(j.kind).freedom;
+    // A pin in a slot turns one way in the plane, a ball three ways in space.
+    const int freedom = j.kind == JointKind::slot && space == Space::planar ? 2 : traits(j.kind).freedom;
     mobility -= is_rod(j.kind) ? 6 - freedom : std::max(0, full - freedom);
   }
   return mobility;
@@ -86,8 +87,8 @@ long output_rates(const symbolic::Mechanism& mechanism) {
 Assembly as_asked(const Robot& robot) {
   Assembly best = draft(robot, {});
   // Several parallelograms that share sides may make each other's loops redundant on some of their branches.
-  bool in_branches = std::any_of(best.parallelograms.begin(), best.parallelograms.end(),
-                                 [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
+  bool in_branches =
+      std::ranges::any_of(best.parallelograms, [](const Assembly::WrittenParallelogram& p) { return !p.angle.empty(); });
   if (in_branches && seems_redundant(best))
     if (Assembly whole = draft(robot, {.in_branches = false}); !seems_redundant(whole)) {
       best = std::move(whole);

@@ -50,8 +50,7 @@ void Draft::limit_last() {
 
 void Draft::slice(const ex& angle, const Range& range, const std::string& what, const SourceLocation& where) {
   const std::string name = GiNaC::ex_to<GiNaC::symbol>(angle).get_name();
-  const auto c =
-      std::find_if(coordinates_.begin(), coordinates_.end(), [&](const DraftCoordinate& d) { return d.name == name; });
+  const auto c = std::ranges::find_if(coordinates_, [&](const DraftCoordinate& d) { return d.name == name; });
   const ex lower = algebra_.constant(range.lower, where), upper = algebra_.constant(range.upper, where);
   bool meets_limit = false;
   if (c->range) {
@@ -307,7 +306,7 @@ void Draft::velocity(const ex& e, const std::string& note, const SourceLocation&
 
 void Draft::velocity_of_equations() {
   const auto is_in = [](const std::vector<ex>& list, const ex& e) {
-    return std::any_of(list.begin(), list.end(), [&](const ex& other) { return other.is_equal(e); });
+    return std::ranges::any_of(list, [&](const ex& other) { return other.is_equal(e); });
   };
   std::vector<std::pair<ex, ex>> rates;  // of each coordinate that does not tell branches
   for (const DraftCoordinate& c : coordinates_) {
@@ -332,7 +331,7 @@ std::string Draft::point(const std::string& wanted, const Vec& at, const std::op
                          std::size_t dimension) {
   std::string name = wanted;
   const auto taken = [&](const DraftPoint& p) { return p.name == name; };
-  for (int k = 2; std::any_of(points_.begin(), points_.end(), taken); ++k) name = wanted + "_" + std::to_string(k);
+  for (int k = 2; std::ranges::any_of(points_, taken); ++k) name = wanted + "_" + std::to_string(k);
   points_.push_back({name, at, velocity, dimension});
   return name;
 }

@@ -111,7 +111,7 @@ std::vector<Frames::Candidate> Frames::candidates(std::size_t group) const {
       if (bodies_.group[e.body] == group && !algebra_.is_zero(e.axis)) list.push_back({e.axis, j, end});
     }
   // Axes that are known already come first: they need no new coordinates.
-  std::stable_sort(list.begin(), list.end(), [&](const Candidate& a, const Candidate& b) {
+  std::ranges::stable_sort(list, [&](const Candidate& a, const Candidate& b) {
     const auto rank = [&](const Candidate& c) {
       const BodyJoint& j = bodies_.joints[*c.joint];
       if (!shares_axis(j.kind)) return 2;
@@ -128,7 +128,7 @@ std::vector<Frames::Candidate> Frames::candidates(std::size_t group) const {
           const Vec way = q.point - p.point;
           if (algebra_.is_zero(way)) continue;
           const Vec along = algebra_.unit(way);
-          if (std::all_of(along.begin(), along.end(), [](const ex& e) { return GiNaC::is_a<GiNaC::numeric>(e); }))
+          if (std::ranges::all_of(along, [](const ex& e) { return GiNaC::is_a<GiNaC::numeric>(e); }))
             list.push_back({along, {}, 0});
         }
   return list;

@@ -24,7 +24,7 @@ class Legs {
       if (legs[slide.index])
         for (const BodyEnd& end : slide.ends) goes[end.body] = true;
     }
-    if (std::none_of(legs.begin(), legs.end(), [](const auto& leg) { return leg.has_value(); })) return result;
+    if (std::ranges::none_of(legs, [](const auto& leg) { return leg.has_value(); })) return result;
     result.conditions = conditions_of(robot_, bodies_, algebra_);
     leave(result.robot, goes, legs);
     return result;
@@ -82,8 +82,8 @@ class Legs {
     robot.joints.clear();
     for (std::size_t j = 0; j < joint.size(); ++j) {
       joint[j] = robot.joints.size();
-      const bool stays = std::none_of(robot_.joints[j].ends.begin(), robot_.joints[j].ends.end(),
-                                      [&](const JointEnd& end) { return goes[bodies_.of_link[end.link]]; });
+      const bool stays =
+          std::ranges::none_of(robot_.joints[j].ends, [&](const JointEnd& end) { return goes[bodies_.of_link[end.link]]; });
       if (!stays && !legs[j]) continue;
       Joint& left = robot.joints.emplace_back(legs[j] ? *legs[j] : robot_.joints[j]);
       for (JointEnd& end : left.ends) end.link = link[end.link];
@@ -105,7 +105,7 @@ class Legs {
 
 LegsInOnePiece legs_in_one_piece(const Robot& robot) {
   const auto count = [&](JointKind kind) {
-    return std::count_if(robot.joints.begin(), robot.joints.end(), [&](const Joint& j) { return j.kind == kind; });
+    return std::ranges::count_if(robot.joints, [&](const Joint& j) { return j.kind == kind; });
   };
   if (!robot.equations.empty() || count(JointKind::prismatic) == 0 || count(JointKind::universal) < 2) return {robot, {}};
   return Legs(robot).run();

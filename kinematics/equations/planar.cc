@@ -60,7 +60,7 @@ class PlanarRobot : Drafter {
     const SourceLocation& where = joint(j).where;
     if (!plane_.turns.contains(group(child.body))) plane_.turns.emplace(group(child.body), child_turn(j, edge.from));
     PlanePoint origin = plane_.place(parent);
-    if (keeps_orientation(j.kind)) {
+    if (keeps_orientation(j.kind) || j.kind == JointKind::slot) {
       origin = shifted(origin, way(j), edge.from == 0 ? 1 : -1);
     } else if (j.kind == JointKind::planar) {
       origin.add(plane_.turns.at(group(parent.body)), {draft_.length(joint(j).name + "_x", {}, where),  //
@@ -74,7 +74,7 @@ class PlanarRobot : Drafter {
   /// Of end 1's point from end 0's, with the joint's coordinate.
   PlanePoint way(const BodyJoint& j) {
     const BodyEnd& e = j.ends[0];
-    if (j.kind == JointKind::prismatic) return plane_.way(e.body, e.axis, own_way(j));
+    if (j.kind == JointKind::prismatic || j.kind == JointKind::slot) return plane_.way(e.body, e.axis, own_way(j));
     const ex radius = algebra_.constant(joint(j).length, joint(j).where);
     return plane_.way(e.body, e.zero, radius, own_turn(j, joint(j).name, plane_.sense(j)));
   }
@@ -134,6 +134,7 @@ class PlanarRobot : Drafter {
         if (robot_.is_asked_for(j.index)) close_angle(j);
         break;
       case JointKind::prismatic:
+      case JointKind::slot:
       case JointKind::parallelogram: all_zero(shifted(gap, way(j), -1), of); break;
       case JointKind::planar: draft_.equation(gap.height, "height", of.where, "the joint '" + of.name + "'"); break;
       case JointKind::distance: {
@@ -271,6 +272,7 @@ std::optional<std::vector<Vec>> plane_of(const Bodies& bodies, const Algebra& al
           return std::nullopt;
         break;
       case JointKind::prismatic:
+      case JointKind::slot:
         if (!algebra.is_zero(algebra.clean(dot(n0, j.ends[0].axis)))) return std::nullopt;
         break;
       case JointKind::distance:

@@ -26,7 +26,7 @@ class Portrayal : Drafter {
         const std::string effector =
             corner(bodies_.of_link[output.link], at.translation + at.rotation * algebra_.vector(output.point, output.where),
                    output.name);
-        if (std::find(effectors_.begin(), effectors_.end(), effector) == effectors_.end()) effectors_.push_back(effector);
+        if (std::ranges::find(effectors_, effector) == effectors_.end()) effectors_.push_back(effector);
       }
     const bool solid = add_shapes();
     for (std::size_t body = 1; body < bodies_.size(); ++body)
@@ -58,7 +58,9 @@ class Portrayal : Drafter {
 
   /// A block that slides along the ground.
   bool is_on_rail(const BodyJoint& j) const {
-    return space_ == Space::planar && j.kind == JointKind::prismatic && (j.ends[0].body == 0 || j.ends[1].body == 0);
+    if (space_ != Space::planar) return false;
+    return (j.kind == JointKind::slot && j.ends[0].body == 0) ||
+           (j.kind == JointKind::prismatic && (j.ends[0].body == 0 || j.ends[1].body == 0));
   }
   static std::size_t block_of(const BodyJoint& j) { return j.ends[0].body == 0 ? 1 : 0; }
 
@@ -114,7 +116,7 @@ class Portrayal : Drafter {
       sorted.emplace_back(
           std::atan2(dot_of(from_middle(k), across) / (length(normal) + 1e-300), dot_of(from_middle(k), first)),
           corners[k].name);
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     std::vector<std::string> names;
     for (const auto& [angle, name] : sorted) names.push_back(name);
     return names;
@@ -166,8 +168,7 @@ class Portrayal : Drafter {
   void add_body(std::size_t body) {
     std::vector<Corner> corners;
     for (const Corner& c : corners_[body])
-      if (std::none_of(corners.begin(), corners.end(), [&](const Corner& other) { return other.name == c.name; }))
-        corners.push_back(c);
+      if (std::ranges::none_of(corners, [&](const Corner& other) { return other.name == c.name; })) corners.push_back(c);
     if (corners.size() < 2) return;
     const std::string body_name =
         bodies_.has_shapes(robot_, body) ? "" : name_of(body);  // what is drawn in their place is not the body
@@ -232,7 +233,11 @@ class Portrayal : Drafter {
           draft_.part(end.body == 0 ? Part::ground : Part::joint, {corner(end.body, local(end))});
         break;
       case JointKind::prismatic: draft_.part(Part::link, {at, far}); break;
-      case JointKind::spherical: draft_.part(space_ == Space::planar ? Part::joint : Part::ball, {at}); break;
+      case JointKind::slot:
+        draft_.part(Part::link, {at, far});
+        draft_.part(space_ == Space::planar ? Part::joint : Part::ball, {far});
+        break;
+      case JointKind::spherical: draft_.part(Part::ball, {at}); break;
       case JointKind::revolute:
         if (space_ == Space::spatial) {
           const Motion along = place_(e.body, e.point + e.axis);

@@ -95,8 +95,7 @@ std::optional<int> sampled_redundancy(const System& system) {
       if (residual < kZero || m == 0 || !(residual < kFar)) break;
       x -= least_squares(jacobian, f, kRank).x;
     }
-    const bool inside =
-        std::all_of(inequalities.begin(), inequalities.end(), [&](const Numeric& g) { return g.value(x) > -1e-9; });
+    const bool inside = std::ranges::all_of(inequalities, [&](const Numeric& g) { return g.value(x) > -1e-9; });
     if (!(residual < kZero) || !inside) continue;
     ++found;
     if (m > 0) {

@@ -126,7 +126,7 @@ class SpatialRobot : public Drafter {
   void orient() {
     const std::vector<Dyad> dyads = dyads_of(robot_, bodies_, algebra_, tree_, false);
     const auto is_dyad = [&](const TreeEdge& edge) {
-      return std::any_of(dyads.begin(), dyads.end(), [&](const Dyad& d) { return d.inner.joint == edge.joint; });
+      return std::ranges::any_of(dyads, [&](const Dyad& d) { return d.inner.joint == edge.joint; });
     };
     for (const TreeEdge& edge : tree_.edges)
       if (!is_dyad(edge)) frames_.orient(edge);
@@ -140,8 +140,9 @@ class SpatialRobot : public Drafter {
     const BodyEnd& e = j.ends[0];
     switch (j.kind) {
       case JointKind::prismatic:
+      case JointKind::slot:
       case JointKind::cylindrical: {
-        const ex d = draft_.joint_way(j.index, j.kind == JointKind::prismatic ? of.name : of.name + "_way").value();
+        const ex d = draft_.joint_way(j.index, j.kind == JointKind::cylindrical ? of.name + "_way" : of.name).value();
         positions_.coordinates[j.index] = d;
         return d * positions_.image(e.body, e.axis);
       }

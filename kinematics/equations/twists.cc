@@ -21,12 +21,11 @@ void add_turning(Vec& sum, const std::vector<Screw>& screws, int sign) {
 
 void Twists::run() {
   for (const Dyad& dyad : dyads_of(robot_, bodies_, algebra_, tree_, true)) {
-    const auto outer =
-        std::find_if(tree_.edges.begin(), tree_.edges.end(), [&](const TreeEdge& edge) { return edge.joint == dyad.outer; });
+    const auto outer = std::ranges::find_if(tree_.edges, [&](const TreeEdge& edge) { return edge.joint == dyad.outer; });
     if (outer == tree_.edges.end() || turned_by_output(*outer)) dyads_.push_back(dyad);
   }
   const auto in_dyad = [&](std::size_t joint) {
-    return std::any_of(dyads_.begin(), dyads_.end(), [&](const Dyad& dyad) { return dyad.outer == joint; });
+    return std::ranges::any_of(dyads_, [&](const Dyad& dyad) { return dyad.outer == joint; });
   };
   for (const TreeEdge& edge : tree_.edges) reach(edge);
   for (const Dyad& dyad : dyads_) turn_within(dyad);
@@ -53,11 +52,9 @@ std::array<Vec, 2> Twists::axes(const Dyad& dyad) {
 
 Role Twists::role(std::size_t index) const {
   const std::vector<std::size_t> joints = draft_.moving_with(index);
-  if (std::any_of(joints.begin(), joints.end(), [&](std::size_t j) { return robot_.joints[j].actuated; }))
-    return Role::input;
+  if (std::ranges::any_of(joints, [&](std::size_t j) { return robot_.joints[j].actuated; })) return Role::input;
   for (const Output& output : robot_.outputs)
-    if (output.kind == Output::Kind::joint && std::find(joints.begin(), joints.end(), output.joint) != joints.end())
-      return Role::output;
+    if (output.kind == Output::Kind::joint && std::ranges::find(joints, output.joint) != joints.end()) return Role::output;
   return Role::passive;
 }
 bool Twists::has_rate(std::size_t index) const { return role(index) != Role::passive || robot_.is_coupled(index); }
@@ -101,6 +98,13 @@ std::vector<Screw> Twists::screws(const BodyJoint& j) {
       list[0].point = place(j.ends[1]);
       break;
     }
+    case JointKind::slot:
+      slide(linear(j), axis(j, 0));
+      for (std::size_t i = 0; i < 3; ++i)  // which no motor drives
+        list.push_back(
+            {draft_.rate("w_" + joint(j).name + "_" + "xyz"[i], CoordinateKind::angle, Role::passive, joint(j).where),
+             unit(i), place(j.ends[1]), true});
+      break;
     case JointKind::spherical:
       for (std::size_t i = 0; i < 3; ++i) turn(angular(j, std::string("_") + "xyz"[i]), unit(i));
       break;
@@ -263,6 +267,11 @@ void Twists::close(const BodyJoint& j) {
   Vec turned = turning(b1) - turning(b0), moved = velocity(b1, c) - velocity(b0, c);
   if (j.kind == JointKind::spherical) {
     closing_rows(moved, j);
+    return;
+  }
+  if (j.kind == JointKind::slot) {
+    const Vec pin = place(j.ends[1]);
+    closing_rows(velocity(b1, pin) - velocity(b0, pin) - linear(j) * axis(j, 0), j);
     return;
   }
   if (j.kind == JointKind::universal && role(j.index) == Role::passive) {

@@ -79,8 +79,8 @@ void PartBuilder::push_constant(std::string_view name_read, const SourceLocation
 void PartBuilder::define_constant() {
   const symbolic::Constant constant{resolve(declared), pop_value(), declared_where, std::exchange(tolerance, {})};
   if (scope.has(constant.name)) {
-    const auto first = std::find_if(robot.constants.begin(), robot.constants.end(),
-                                    [&](const symbolic::Constant& c) { return c.name == constant.name; });
+    const auto first =
+        std::ranges::find_if(robot.constants, [&](const symbolic::Constant& c) { return c.name == constant.name; });
     throw ModelError(
         declared_where,
         "the constant " + in_quotes(declared) + " is already defined in line " + std::to_string(first->where.line),
@@ -173,7 +173,7 @@ void PartBuilder::include(const std::string& prefix_read) {
                      "a robot read from a file");
   const std::filesystem::path path = *folder_ / quoted;
   const std::string key = canonical_name(path);
-  if (std::find(open_files_.begin(), open_files_.end(), key) != open_files_.end())
+  if (std::ranges::find(open_files_, key) != open_files_.end())
     throw ModelError(quoted_where, "the file " + in_quotes(quoted) + " includes itself, directly or through others",
                      "a file that does not include this one");
   if (open_files_.size() > kMaxIncludeDepth || ++includes_ > kMaxIncludes)

@@ -48,7 +48,7 @@ void PartBuilder::begin_dh(std::string_view convention, const SourceLocation& wh
 
 void PartBuilder::add_dh_column(std::string_view word, const SourceLocation& where) {
   const std::string column = small_letters(word);
-  if (std::find(dh.columns.begin(), dh.columns.end(), column) != dh.columns.end())
+  if (std::ranges::find(dh.columns, column) != dh.columns.end())
     throw ModelError(where, "the column " + in_quotes(column) + " occurs twice here", "each of a, alpha, d and theta once");
   dh.columns.push_back(column);
 }
@@ -63,7 +63,7 @@ void PartBuilder::begin_dh_row(const SourceLocation& where) {
 }
 
 const Expression& PartBuilder::dh_cell(const std::string& column) const {
-  return dh.cells[std::find(dh.columns.begin(), dh.columns.end(), column) - dh.columns.begin()];
+  return dh.cells[std::ranges::find(dh.columns, column) - dh.columns.begin()];
 }
 
 /// What the row's joint is called, as soon as its cells are known.
@@ -171,7 +171,7 @@ void PartBuilder::finish_dh() {
 /// Rows alone are an arm: every joint is driven, and its last frame is what it is for.
 void PartBuilder::ask_for_what_dh_leaves_open() {
   if (dh_joints_.empty()) return;
-  if (std::none_of(robot.joints.begin(), robot.joints.end(), [](const Joint& j) { return j.actuated; }))
+  if (std::ranges::none_of(robot.joints, [](const Joint& j) { return j.actuated; }))
     for (const std::string& driven : dh_joints_) robot.joints[robot.find_joint(driven)].actuated = true;
   if (!robot.outputs.empty() || dh_tools_.size() != 1) return;
   Output tool;

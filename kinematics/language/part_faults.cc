@@ -13,8 +13,11 @@ using symbolic::suggestion;
 const std::vector<std::string> kColourWords{"red",    "green", "blue",  "purple", "cyan",
                                             "yellow", "white", "black", "grey",   "color"};
 const std::string kColours = symbolic::listed(kColourWords, " or ") + " (r, g, b)";
-const std::vector<std::string> kKinds{"revolute",      "prismatic", "cylindrical", "universal",   "spherical",   "planar",
-                                      "parallelogram", "fix",       "sph_sph",     "sph_prs_sph", "uni_prs_uni", "gear"};
+const std::vector<std::string> kKinds = [] {
+  std::vector<std::string> names = kind_names();
+  names.emplace_back("gear");
+  return names;
+}();
 const std::string kKindList = symbolic::listed(kKinds, " or ");
 const std::vector<std::string> kOptions{"range",  "limits",   "reference", "zero",        "length", "radius",
                                         "avoid",  "actuated", "velocity",  "torque",      "force",  "effort",

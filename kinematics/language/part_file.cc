@@ -164,13 +164,13 @@ void begin_joint(const ActionInput& in, PartBuilder& b) {
 }
 CORANK_ACTION(axis_kind, { begin_joint(in, b); })
 CORANK_ACTION(point_kind, { begin_joint(in, b); })
+CORANK_ACTION(slot_kind, { begin_joint(in, b); })
 CORANK_ACTION(fixed_kind, { begin_joint(in, b); })
 CORANK_ACTION(gear_kind, { begin_joint(in, b); })
 CORANK_ACTION(connector_kind, { begin_joint(in, b); })
 CORANK_ACTION(refused_kind, {
   throw ModelError(place(in, b), "joints of the kind " + in_quotes(small_letters(in.string_view())) + " are not supported",
-                   "revolute, prismatic, cylindrical, universal, spherical, planar, parallelogram, fix, sph_sph, "
-                   "sph_prs_sph or uni_prs_uni");
+                   symbolic::listed(kind_names(), " or "));
 })
 CORANK_ACTION(joint_name, {
   b.draft.name = in.string();
@@ -188,8 +188,7 @@ CORANK_ACTION(zero_direction, {
   b.draft.zero_where = place(in, b);
 })
 CORANK_ACTION0(length_end, { b.draft.length = b.pop_value(); })
-CORANK_ACTION0(radius_end, { b.pop_value(); })
-CORANK_ACTION0(weight_end, { b.pop_value(); })
+CORANK_ACTION0(dropped_end, { b.pop_value(); })
 CORANK_ACTION0(avoid_word, { b.pass_over("limits to be avoided (avoid limits)"); })
 CORANK_ACTION0(actuated_word, { b.draft.actuated = true; })
 template <typename ActionInput>

@@ -23,8 +23,7 @@ struct no_gap : success {};
 using model::assign, model::constant_end, model::constant_name, model::file_end, model::point_end, model::point_name;
 using model::header, model::word, model::section_or_end, model::known_section, model::unknown_section;
 using model::percent_token, model::value_range_word, model::range_close, model::range_comma, model::tolerance_end;
-using model::section_start, model::unit_name;
-using model::value_range_end;
+using model::section_start, model::unit_name, model::value_range_end;
 template <typename... Letters>
 struct words : word<sor<Letters...>> {};
 #define CORANK_WORD(name, text) \
@@ -208,12 +207,13 @@ struct links_section : seq<links_header, star<gap, not_at<section_or_end>, link>
 // [JOINTS]
 struct axis_kind : words<any_case<"revolute">, any_case<"crevolute">, any_case<"prismatic">, any_case<"universal">,
                          any_case<"cylindrical">, any_case<"planar">, any_case<"parallelogram">, any_case<"uni_prs_uni">> {};
+struct slot_kind : words<any_case<"slot">> {};
 struct gear_kind : words<any_case<"gear">> {};
 struct point_kind : words<any_case<"spherical">, any_case<"sph_prs_sph">, any_case<"sph_sph">> {};
 struct fixed_kind : words<any_case<"fix">> {};
 struct connector_kind : words<any_case<"c_spring">, any_case<"c_cable">, any_case<"c_leg">> {};
 struct refused_kind : words<any_case<"in_patch">, any_case<"spring">, any_case<"xyspring">> {};
-struct any_kind : sor<axis_kind, point_kind, fixed_kind, gear_kind, connector_kind, refused_kind> {};
+struct any_kind : sor<axis_kind, point_kind, slot_kind, fixed_kind, gear_kind, connector_kind, refused_kind> {};
 struct joint_name : simple_name {};
 struct joint_link : long_name {};
 struct joint_colon : colon {};
@@ -251,11 +251,10 @@ struct second_zero : seq<at<one<'('>>, zero_direction> {};
 struct zero_option : seq<zero_word, gap, must<zero_direction>, opt<gap, second_zero>> {};
 struct length_end : success {};
 struct length_option : seq<length_word, gap, expression, length_end> {};
-struct radius_end : success {};
-struct radius_option : seq<radius_word, gap, expression, radius_end> {};
-struct weight_end : success {};
+struct dropped_end : success {};  // of a number that is passed over
+struct radius_option : seq<radius_word, gap, expression, dropped_end> {};
 struct weight : seq<not_at<sor<any_kind, option_word>>, at<sor<digit, one<'.'>, one<'('>, one<'-'>, model::name_head>>,
-                    expression, weight_end> {};
+                    expression, dropped_end> {};
 struct avoid_option : seq<avoid_word, gap, must<limits_word>, opt<gap, weight>> {};
 struct driver_name : long_name {};
 struct ratio_end : success {};
@@ -273,6 +272,7 @@ struct point_shift : seq<one<'+'>, gap, must<offset_vector>> {};
 struct point_joint_end : seq<must<joint_link>, gap, must<point>, opt<gap, point_shift>> {};
 struct axis_joint : seq<joint_head<axis_kind>, axis_end, gap, axis_end, joint_options, joint_end> {};
 struct point_joint : seq<joint_head<point_kind>, point_joint_end, gap, point_joint_end, joint_options, joint_end> {};
+struct slot_joint : seq<joint_head<slot_kind>, axis_end, gap, point_joint_end, joint_options, joint_end> {};
 struct fixed_joint
     : seq<joint_head<fixed_kind>, must<joint_link>, gap, must<joint_link>, gap, transforms, joint_options, joint_end> {};
 struct connector_end : success {};
@@ -283,7 +283,7 @@ struct gear_ratio : coupling_ratio {};
 struct gear_end : success {};
 struct gear : seq<joint_head<gear_kind>, must<gear_driver>, gap, must<gear_follower>, gap, must<gear_ratio>,
                   opt<gap, coupling_offset>, gear_end> {};
-struct joint : sor<axis_joint, point_joint, fixed_joint, gear, connector, refused_kind> {};
+struct joint : sor<axis_joint, point_joint, slot_joint, fixed_joint, gear, connector, refused_kind> {};
 CORANK_WORD(keep_word, "keep");
 CORANK_WORD(parallelograms_word, "parallelograms");
 struct keep_parallelograms : seq<keep_word, gap, parallelograms_word> {};

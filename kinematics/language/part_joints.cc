@@ -72,14 +72,15 @@ void PartBuilder::require_brackets(std::size_t least, std::size_t most, const st
 }
 
 void PartBuilder::set_axes(Joint& joint) {
-  const std::size_t each = points.size() / 2;
+  const std::size_t of_first = (points.size() + 1) / 2;  // as many as the other end has, or one more
   for (std::size_t i = 0; i < 2; ++i) {
-    const ReadPoint& first = points[each * i];
+    const std::size_t begin = i == 0 ? 0 : of_first, end = i == 0 ? of_first : points.size();
+    const ReadPoint& first = points[begin];
     joint.ends[i].link = draft.links[i];
     joint.ends[i].point = first.at;
     joint.ends[i].label = first.name;
-    if (each < 2) continue;
-    const ReadPoint& second = points[each * i + 1];
+    if (end - begin < 2) continue;
+    const ReadPoint& second = points[begin + 1];
     joint.ends[i].axis = second.way ? *second.way : second.at - first.at;
   }
   if (!keeps_orientation(joint.kind)) return;

@@ -32,7 +32,7 @@ std::vector<Joints> blocks(const Robot& robot, const Bodies& bodies, const Algeb
     loop.insert(loop.end(), fork.second, b.end());
     for (const std::size_t j : loop) {
       const std::size_t old = block[j];
-      std::replace(block.begin(), block.end(), old, block[chord]);
+      std::ranges::replace(block, old, block[chord]);
     }
   }
   std::map<std::size_t, Joints> sorted;
@@ -124,7 +124,7 @@ class Block {
 Bodies about_centres(const Robot& robot, const Bodies& bodies, Algebra& algebra) {
   std::vector<ex> known;
   const auto short_form = [&](const ex& e) {
-    const auto same = std::find_if(known.begin(), known.end(), [&](const ex& k) { return algebra.is_zero(k - e); });
+    const auto same = std::ranges::find_if(known, [&](const ex& k) { return algebra.is_zero(k - e); });
     return same != known.end() ? *same : known.emplace_back(algebra.named(e));
   };
   Bodies moved = bodies;

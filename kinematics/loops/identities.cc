@@ -95,7 +95,7 @@ std::optional<Identities::Known> Identities::remainder(const ex& e) {
     if (operations_left_ == 0) return std::nullopt;
     const auto [monomial, coefficient] = *f.begin();
     std::optional<Monomial> factor;
-    const auto divisor = std::find_if(known_.begin(), known_.end(), [&](const Known& p) {
+    const auto divisor = std::ranges::find_if(known_, [&](const Known& p) {
       factor = quotient(monomial, p.value.begin()->first);
       return factor.has_value();
     });

@@ -92,7 +92,7 @@ LoopBranches BranchFinder::branches_of(const Sides& sides, std::size_t number) c
 
 bool BranchFinder::are_equal(const PlanePoint& a, const PlanePoint& b) const {
   const PlanePoint difference = shifted(a, b, -1);
-  return std::all_of(difference.terms.begin(), difference.terms.end(), [&](const Turn& term) {
+  return std::ranges::all_of(difference.terms, [&](const Turn& term) {
     const ex re = algebra_.clean(term.k.re), im = algebra_.clean(term.k.im);
     return algebra_.is_constant(re) && algebra_.is_constant(im) && algebra_.is_zero(re) && algebra_.is_zero(im);
   });
@@ -107,7 +107,7 @@ std::optional<LoopBranches> BranchFinder::of_loop(const PlanePoint& open, const 
     Sides sides;
     for (std::size_t i = 0; i < 4; ++i)
       if (const auto& side = parallelograms_[number].ways[i]; side.body) sides[i] = plane.direction(*side.body, side.way);
-    if (!std::all_of(sides.begin(), sides.end(), [](const auto& side) { return side.has_value(); })) continue;
+    if (!std::ranges::all_of(sides, [](const auto& side) { return side.has_value(); })) continue;
     const PlanePoint there = shifted(point(*sides[0]), point(*sides[1])), back = shifted(point(*sides[2]), point(*sides[3]));
     if (are_opposite_or_equal(open, shifted(there, back, -1))) return branches_of(sides, number);
   }
@@ -123,7 +123,7 @@ std::optional<LoopBranches> BranchFinder::of_rod(std::size_t rod, const PlanePoi
       if (one.ways[i].body) sides[i] = plane.direction(*one.ways[i].body, one.ways[i].way);
       if (one.ways[i].rod == rod) third = i;
     }
-    if (third == 4 || std::count_if(sides.begin(), sides.end(), [](const auto& s) { return s.has_value(); }) != 3) continue;
+    if (third == 4 || std::ranges::count_if(sides, [](const auto& s) { return s.has_value(); }) != 3) continue;
     const Sides known = rod_as_third(sides, third);
     const PlanePoint along = shifted(shifted(point(*known[0]), point(*known[1])), point(*known[3]), -1);
     if (are_opposite_or_equal(gap, along)) return branches_of(known, number);

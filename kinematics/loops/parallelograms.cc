@@ -120,7 +120,7 @@ class ParallelAxes {
   }
   void join(std::size_t a, std::size_t b) {
     const std::size_t old = hinge_[b], now = hinge_[a];
-    std::replace(hinge_.begin(), hinge_.end(), old, now);
+    std::ranges::replace(hinge_, old, now);
   }
 
   // From mark a to mark b of one body, across the axes.
@@ -134,9 +134,8 @@ class ParallelAxes {
     const auto add = [&](std::size_t carrier, std::size_t a, std::size_t b, const ex& square) {
       const std::size_t p = hinge_[a], q = hinge_[b];
       const auto [from, to] = std::minmax(p, q);
-      const bool known = std::any_of(sides_.begin(), sides_.end(), [&, from = from, to = to](const Side& s) {
-        return s.carrier == carrier && s.from == from && s.to == to;
-      });
+      const bool known = std::ranges::any_of(
+          sides_, [&, from = from, to = to](const Side& s) { return s.carrier == carrier && s.from == from && s.to == to; });
       if (p != q && !known) sides_.push_back({carrier, from, to, square, algebra_.value(square)});
     };
     for (std::size_t a = 0; a < marks_.size(); ++a)
@@ -216,7 +215,7 @@ std::vector<Parallelogram> parallelograms_of(const Robot& robot, const Bodies& b
   for (std::size_t seed = 0; seed < bodies.joints.size(); ++seed) {
     const BodyJoint& joint = bodies.joints[seed];
     if (joint.kind != JointKind::revolute ||
-        std::any_of(directions.begin(), directions.end(), [&](const ParallelAxes& d) { return d.is_ours(joint); }))
+        std::ranges::any_of(directions, [&](const ParallelAxes& d) { return d.is_ours(joint); }))
       continue;
     for (Parallelogram& one : directions.emplace_back(robot, bodies, algebra, seed).parallelograms())
       found.push_back(std::move(one));

@@ -25,10 +25,11 @@ class Direction {
           joints.push_back(j);
         }
     }
-    // A rod between bodies that move in the plane, or parallel to it, is one of the plane.
+    // A rod between bodies that move in the plane, or parallel to it, is one of the plane, unless it asks for more than a
+    // length.
     for (std::size_t j = 0; j < taken.size(); ++j) {
-      const auto& ends = bodies.joints[j].ends;
-      if (is_rod(bodies.joints[j].kind) && normals.contains(bodies.group[ends[0].body]) &&
+      const auto& [index, kind, ends] = bodies.joints[j];
+      if (is_rod(kind) && kind != JointKind::universal_rod && normals.contains(bodies.group[ends[0].body]) &&
           normals.contains(bodies.group[ends[1].body]))
         joints.push_back(j);
     }
@@ -88,7 +89,7 @@ std::vector<Joints> loops_of(const Bodies& bodies, const Joints& joints) {
     if (!in_loop[j]) continue;
     const auto& ends = bodies.joints[j].ends;
     const std::size_t old = set_of[ends[1].body], now = set_of[ends[0].body];
-    std::replace(set_of.begin(), set_of.end(), old, now);
+    std::ranges::replace(set_of, old, now);
   }
   std::map<std::size_t, Joints> sets;
   for (const std::size_t j : joints)
@@ -105,7 +106,7 @@ PlaneLoops::PlaneLoops(const Bodies& bodies, const Algebra& algebra) : bodies_(b
     if (has(seed) || bodies.joints[seed].kind != JointKind::revolute) continue;
     const Direction direction(bodies, algebra, seed);
     for (const Joints& joints : loops_of(bodies, direction.joints)) {
-      if (std::any_of(joints.begin(), joints.end(), [&](std::size_t j) { return has(j); })) continue;
+      if (std::ranges::any_of(joints, [&](std::size_t j) { return has(j); })) continue;
       PlanePart part{{bodies, algebra}};
       for (const std::size_t j : joints) {
         part_of_[j] = parts_.size();

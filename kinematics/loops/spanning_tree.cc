@@ -1,30 +1,15 @@
 #include "corank/kinematics/loops/spanning_tree.h"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <deque>
 #include <limits>
-#include <numeric>
 #include <optional>
+
+#include "corank/core/check.h"
 
 namespace corank::kinematics {
 namespace {
-
-class Forest {
- public:
-  explicit Forest(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  bool join(std::size_t a, std::size_t b) {
-    a = root(a), b = root(b);
-    parent_[a] = b;
-    return a != b;
-  }
-
- private:
-  std::size_t root(std::size_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  std::vector<std::size_t> parent_;
-};
 
 /// Neither driven nor asked for.
 bool is_passive_revolute(const Robot& robot, const BodyJoint& j) {
@@ -37,11 +22,15 @@ SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algeb
                            bool deep) {
   const std::size_t n = bodies.joints.size();
   std::vector<bool> in_forest(n, false), reached(bodies.size(), false);
-  Forest forest(bodies.size());
-  const int last = n == 0 ? 0 : *std::max_element(order.begin(), order.end());
+  boost::disjoint_sets_with_storage<> forest(bodies.size());
+  const int last = n == 0 ? 0 : *std::ranges::max_element(order);
   for (int turn = 1; turn <= last; ++turn)
     for (std::size_t j = 0; j < n; ++j)
-      if (order[j] == turn) in_forest[j] = forest.join(bodies.joints[j].ends[0].body, bodies.joints[j].ends[1].body);
+      if (order[j] == turn) {
+        const std::size_t a = bodies.joints[j].ends[0].body, b = bodies.joints[j].ends[1].body;
+        in_forest[j] = forest.find_set(a) != forest.find_set(b);
+        forest.union_set(a, b);
+      }
 
   SpanningTree tree;
   std::vector<bool> used(n, false);
@@ -88,7 +77,7 @@ SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algeb
       const auto any = [&](std::size_t j) { return order[j] == 0 && !is_rod(bodies.joints[j].kind); };
       if (!deep) {
         for (const std::size_t body : together) extend(body, false, any);
-      } else if (std::any_of(together.begin(), together.end(), [&](std::size_t body) { return extend(body, true, any); })) {
+      } else if (std::ranges::any_of(together, [&](std::size_t body) { return extend(body, true, any); })) {
         waiting.insert(waiting.end() - 1, together.begin(), together.end());  // for later: the new body comes next
       }
     }
@@ -108,12 +97,7 @@ SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algeb
     if (shortest) take(shortest->joint, shortest->from);
     if (waiting.empty()) break;
   }
-  for (std::size_t link = 0; link < robot.links.size(); ++link)
-    if (!reached[bodies.of_link[link]])
-      throw symbolic::ModelError(
-          robot.links[link].where,
-          "no joint connects the link '" + robot.links[link].name + "' with the ground '" + robot.links[0].name + "'",
-          "one robot");
+  CORANK_CHECK(std::ranges::find(reached, false) == reached.end());  // else Robot::validate() refuses the robot
   for (std::size_t j = 0; j < n; ++j)
     if (!used[j]) tree.chords.push_back(j);
   return tree;
@@ -134,7 +118,7 @@ std::vector<Dyad> dyads_of(const Robot& robot, const Bodies& bodies, const Algeb
     if (taken[edge.joint] || taken[outer]) continue;
     if (!is_passive_revolute(robot, bodies.joints[edge.joint]) || !is_passive_revolute(robot, bodies.joints[outer]))
       continue;
-    const bool closes = std::find(tree.chords.begin(), tree.chords.end(), outer) != tree.chords.end();
+    const bool closes = std::ranges::find(tree.chords, outer) != tree.chords.end();
     if (!closes && !reached) continue;
     const BodyJoint &inner = bodies.joints[edge.joint], &next = bodies.joints[outer];
     const std::size_t near = next.ends[0].body == link ? 0 : 1;

@@ -21,8 +21,7 @@ struct SpanningTree {
 /// Joints of the order 1, then 2 … are taken before those of 0: loops in a plane, sliding ones, those whose angle is a
 /// coordinate; rods carry a body only where nothing else does, the shortest of constant length first. Among the rest the
 /// ways to the ground are as short as possible, or, `deep`, each branch goes on as far as it can before the next one begins:
-/// then loops close at the ground. Throws ModelError, naming a link, where a body is not connected with the
-/// ground.
+/// then loops close at the ground. All bodies are connected with the ground (Robot::validate).
 SpanningTree spanning_tree(const Robot& robot, const Bodies& bodies, const Algebra& algebra, const std::vector<int>& order,
                            bool deep = false);
 

@@ -7,7 +7,7 @@ namespace {
 
 template <typename Named>
 int find(const std::vector<Named>& list, const std::string& name) {
-  const auto found = std::find_if(list.begin(), list.end(), [&](const Named& item) { return item.name == name; });
+  const auto found = std::ranges::find_if(list, [&](const Named& item) { return item.name == name; });
   return found == list.end() ? -1 : static_cast<int>(found - list.begin());
 }
 
@@ -15,11 +15,12 @@ int find(const std::vector<Named>& list, const std::string& name) {
 
 std::span<const JointTraits> joint_traits() {
   using enum JointKind;
-  static constexpr std::array<JointTraits, 11> kTraits{{{revolute, "revolute", 1, 1, true, true},
+  static constexpr std::array<JointTraits, 12> kTraits{{{revolute, "revolute", 1, 1, true, true},
                                                         {prismatic, "prismatic", 1, 1, true},
                                                         {cylindrical, "cylindrical", 2, 2, true, true},
                                                         {universal, "universal", 2, 2, true, true},
                                                         {spherical, "spherical", 3, 1},
+                                                        {slot, "slot", 4, 1, true},
                                                         {planar, "planar", 3, 0, true},
                                                         {parallelogram, "parallelogram", 1, 1, true, true},
                                                         {fixed, "fix", 0},
@@ -30,6 +31,13 @@ std::span<const JointTraits> joint_traits() {
 }
 
 const JointTraits& traits(JointKind kind) { return *std::ranges::find(joint_traits(), kind, &JointTraits::kind); }
+
+std::vector<std::string> kind_names(bool with_coordinate) {
+  std::vector<std::string> names;
+  for (const JointTraits& known : joint_traits())
+    if (!with_coordinate || has_coordinate(known.kind)) names.emplace_back(known.name);
+  return names;
+}
 
 bool Robot::is_coupled(std::size_t joint) const {
   return std::ranges::any_of(couplings, [&](const Coupling& c) { return c.driver == joint || c.follower == joint; });

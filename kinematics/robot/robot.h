@@ -49,6 +49,7 @@ enum class JointKind {
   cylindrical,        ///< axes coincide; turns and slides
   universal,          ///< points coincide, the ends' axes stay perpendicular
   spherical,          ///< points coincide
+  slot,               ///< end 1's point, a pin or a ball, is on end 0's axis: slides along it, turns about itself
   planar,             ///< normals coincide and the points stay in one plane: turns about the normal, slides in the plane
   parallelogram,      ///< orientation kept; the second point goes round the first on a circle about the axis
   fixed,              ///< the second link's frame has a constant pose in the first's
@@ -60,7 +61,7 @@ enum class JointKind {
 struct JointTraits {
   JointKind kind;
   const char* name;        ///< "revolute" …, "fix", "sph_sph", "sph_prs_sph", "uni_prs_uni"
-  int freedom;             ///< in how many ways its links move on each other
+  int freedom;             ///< in how many ways its links move on each other, in space
   std::size_t ranges = 0;  ///< how many it may be given, each for one of its values
   bool has_axis = false;
   bool has_angle = false;  ///< which counts from a zero direction
@@ -69,6 +70,11 @@ struct JointTraits {
 std::span<const JointTraits> joint_traits();
 const JointTraits& traits(JointKind kind);
 inline const char* to_string(JointKind kind) { return traits(kind).name; }
+
+/// Has it an angle or a displacement of its own, that may be an input or an output?
+inline bool has_coordinate(JointKind kind) { return kind != JointKind::spherical && traits(kind).ranges > 0; }
+/// Of all kinds, or of those that have one.
+std::vector<std::string> kind_names(bool with_coordinate = false);
 
 /// A rod whose length is a coordinate.
 inline bool is_extensible(JointKind kind) {
@@ -89,7 +95,7 @@ inline bool turns_about_point(JointKind kind) {
 struct JointEnd {
   std::size_t link = 0;
   Vector point{0, 0, 0};
-  Vector axis{0, 0, 0};  ///< a direction, of any length but 0; without meaning for fixed, spherical and the rods
+  Vector axis{0, 0, 0};  ///< a direction, of any length but 0; without meaning for fixed, spherical, rods, a slot's pin
   std::optional<Vector>
       zero;             ///< a direction that is no multiple of the axis: the angle is measured between the ends' zeros
   std::string label{};  ///< what a picture calls the point; empty: as the joint is called
@@ -105,7 +111,7 @@ struct Joint {
   std::array<JointEnd, 2> ends;
   /// revolute: of the angle by which end 1's zero is turned from end 0's, about the axis; universal: of the angle about
   /// end 0's axis that turns end 0's zero to end 1's axis, then of the angle about end 1's axis that turns end 0's axis to
-  /// end 1's zero; prismatic: of the way of end 1's point from end 0's along the axis; cylindrical: of the
+  /// end 1's zero; prismatic, slot: of the way of end 1's point from end 0's along the axis; cylindrical: of the
   /// angle, then of the way; parallelogram: of the angle of the way from end 0's point to end 1's, from end 0's zero;
   /// spherical: of the angle between the ends' axes (a cone), as [0, half angle]; extensible rods: of the length.
   std::vector<std::optional<Range>> ranges;

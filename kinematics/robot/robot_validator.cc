@@ -1,6 +1,7 @@
 // Robot::validate(): every comparison is made in the exact arithmetic of constants. Where enclosures leave a sign open, the
 // number may be 0: an axis or a length is then refused, an equation (of a rotation matrix) accepted.
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <numeric>
 #include <set>
 
@@ -15,13 +16,11 @@ namespace {
 using symbolic::in_quotes;
 using symbolic::ModelError;
 
-bool has_axis(const Joint& joint) {
+bool has_axis(const Joint& joint, const JointEnd& end) {
   const bool has_cone = joint.kind == JointKind::spherical && joint.range();
-  return traits(joint.kind).has_axis || has_cone;
+  const bool is_pin = joint.kind == JointKind::slot && &end == &joint.ends[1];
+  return (traits(joint.kind).has_axis && !is_pin) || has_cone;
 }
-
-/// An angle or a displacement of its own, that may be an input or an output.
-bool has_coordinate(JointKind kind) { return kind != JointKind::spherical && traits(kind).ranges > 0; }
 
 class RobotValidator {
  public:
@@ -62,8 +61,7 @@ class RobotValidator {
       require_positive(joint.length, "the length of " + what, "a length above 0", where);
     if (joint.actuated && !has_coordinate(joint.kind))
       throw ModelError(where, what + " cannot be actuated: it has no angle or displacement of its own",
-                       "an actuated joint of the kind revolute, prismatic, parallelogram, cylindrical, universal, "
-                       "sph_prs_sph or uni_prs_uni");
+                       "an actuated joint of the kind " + symbolic::listed(kind_names(true), " or "));
   }
 
   /// Each follows one joint, and nobody himself.
@@ -120,7 +118,7 @@ class RobotValidator {
       const Joint& joint = robot_.joints[output.joint];
       if (!has_coordinate(joint.kind))
         throw ModelError(where, what + " is of " + described(joint) + ", which has no angle or displacement of its own",
-                         "a revolute, prismatic, parallelogram, cylindrical, universal, sph_prs_sph or uni_prs_uni joint");
+                         "a joint of the kind " + symbolic::listed(kind_names(true), " or "));
       if (joint.actuated)
         throw ModelError(where, what + " is of " + described(joint) + ", which is actuated: its coordinate is an input",
                          "a joint that no actuator drives");
@@ -177,15 +175,10 @@ class RobotValidator {
   }
 
   void check_connections() const {
-    std::vector<std::size_t> root(robot_.links.size());
-    std::iota(root.begin(), root.end(), std::size_t{0});
-    const auto find = [&](std::size_t i) {
-      while (root[i] != i) i = root[i] = root[root[i]];
-      return i;
-    };
-    for (const Joint& joint : robot_.joints) root[find(joint.ends[0].link)] = find(joint.ends[1].link);
-    for (std::size_t i = 1; i < root.size(); ++i) {
-      if (find(i) == find(0)) continue;
+    boost::disjoint_sets_with_storage<> joined(robot_.links.size());
+    for (const Joint& joint : robot_.joints) joined.union_set(joint.ends[0].link, joint.ends[1].link);
+    for (std::size_t i = 1; i < robot_.links.size(); ++i) {
+      if (joined.find_set(i) == joined.find_set(std::size_t{0})) continue;
       throw ModelError(at(robot_.links[i].where),
                        "no joint connects the link " + in_quotes(robot_.links[i].name) + " with the first link, " +
                            in_quotes(robot_.links[0].name) + ", which is the ground",
@@ -229,7 +222,7 @@ class RobotValidator {
     return scope_.sign(e, what, where).value_or(0) != 0;
   }
   bool has_length(const Vector& v, const std::string& what, const symbolic::SourceLocation& where) {
-    return std::any_of(v.begin(), v.end(), [&](const Expression& e) { return is_surely_not_zero(e, what, where); });
+    return std::ranges::any_of(v, [&](const Expression& e) { return is_surely_not_zero(e, what, where); });
   }
 
   void require_direction(const Vector& v, const std::string& what, const symbolic::SourceLocation& where) {
@@ -240,11 +233,11 @@ class RobotValidator {
     const std::string on = " of " + what + " on the link " + in_quotes(robot_.links[end.link].name);
     check(end.point, "the point" + on, where);
     check(end.axis, "the axis" + on, where);
-    if (has_axis(joint)) require_direction(end.axis, "the axis" + on, where);
+    if (has_axis(joint, end)) require_direction(end.axis, "the axis" + on, where);
     if (!end.zero) return;
     const std::string zero = "the zero direction" + on;
     require_direction(*end.zero, zero, where);
-    if (has_axis(joint) && !has_length(cross(end.axis, *end.zero), zero, where))
+    if (has_axis(joint, end) && !has_length(cross(end.axis, *end.zero), zero, where))
       throw ModelError(where, zero + " lies along the axis", "a direction across the axis");
   }
 

@@ -16,7 +16,7 @@ void add_loops(Robot& robot, const UrdfLoops& loops) {
     robot.joints[i].actuated = false;
   }
   parse_more(robot, loops.text, loops.file);
-  if (std::any_of(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.actuated; })) return;
+  if (std::ranges::any_of(robot.joints, [](const Joint& joint) { return joint.actuated; })) return;
   for (const std::size_t i : driven) robot.joints[i].actuated = true;
 }
 
@@ -25,7 +25,7 @@ void add_loops(Robot& robot, const UrdfLoops& loops) {
 Robot parse_urdf(std::string_view text, const std::string& file, const std::optional<UrdfLoops>& loops) {
   Robot robot = read_urdf_tree(text, file, loops.has_value());
   if (loops) add_loops(robot, *loops);
-  if (std::none_of(robot.joints.begin(), robot.joints.end(), [](const Joint& joint) { return joint.actuated; }))
+  if (std::ranges::none_of(robot.joints, [](const Joint& joint) { return joint.actuated; }))
     robot.notices.push_back("no <transmission> says which joints are actuated; list them in [INPUTS] of a .loops file");
   robot.validate();
   return robot;

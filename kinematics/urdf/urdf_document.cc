@@ -93,7 +93,7 @@ void UrdfDocument::check_attributes(const pugi::xml_node& element) const {
       throw ModelError(where(attribute), "the attribute " + in_quotes(attribute.name()) + " is written twice in one element",
                        "it once");
     const std::string_view value = attribute.value();
-    if (std::any_of(value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }))
+    if (std::ranges::any_of(value, [](char c) { return static_cast<unsigned char>(c) < ' '; }))
       throw ModelError(where(attribute), "a control character in an attribute", "visible characters and blanks");
     if (value.find("${") != std::string_view::npos || value.find("$(") != std::string_view::npos)
       throw ModelError(where(attribute), in_quotes(value) + " is xacro", kRunXacro);
@@ -108,7 +108,7 @@ void UrdfDocument::check_entities(const pugi::xml_attribute& attribute) const {
   const std::string_view written = std::string_view(text_).substr(begin, text_.find(text_[begin - 1], begin) - begin);
   for (std::size_t i = written.find('&'); i != std::string_view::npos; i = written.find('&', i + 1)) {
     const std::string_view reference = written.substr(i + 1, written.find_first_of("; \t\r\n", i) - i - 1);
-    if (reference.starts_with('#') || std::find(kEntities.begin(), kEntities.end(), reference) != kEntities.end()) continue;
+    if (reference.starts_with('#') || std::ranges::find(kEntities, reference) != kEntities.end()) continue;
     throw ModelError(place_at(begin + i), "the entity " + in_quotes(reference) + " is unknown",
                      "&amp; for the character &: a file's own entities are not read");
   }

@@ -40,7 +40,7 @@ pugi::xml_node UrdfReading::only_child(const pugi::xml_node& element, const char
 void UrdfReading::allow_attributes(const pugi::xml_node& element, std::initializer_list<std::string_view> names) const {
   for (const pugi::xml_attribute& attribute : element.attributes()) {
     const std::string_view name = attribute.name();
-    if (name.find(':') != std::string_view::npos || std::find(names.begin(), names.end(), name) != names.end()) continue;
+    if (name.find(':') != std::string_view::npos || std::ranges::find(names, name) != names.end()) continue;
     throw ModelError(where(attribute), "<" + std::string(element.name()) + "> has an unknown attribute " + in_quotes(name),
                      symbolic::joined({names.begin(), names.end()}));
   }
@@ -50,7 +50,7 @@ void UrdfReading::allow_children(const pugi::xml_node& element, std::initializer
   for (const pugi::xml_node& child : element.children()) {
     if (child.type() != pugi::node_element) continue;
     const std::string_view name = child.name();
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    if (std::ranges::find(names, name) != names.end()) continue;
     if (const std::string meant = nearest_name(std::string(name), {names.begin(), names.end()}); !meant.empty())
       throw ModelError(where(child), "an unknown element <" + symbolic::shortened(name) + ">",
                        "<" + meant + ">, or another name");

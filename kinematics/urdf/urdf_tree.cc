@@ -276,7 +276,7 @@ class TreeReader {
       reading_.required(element, "xyz", "the axis of " + joint_text(index));
       const pugi::xml_attribute xyz = element.attribute("xyz");
       axis = urdf_numbers(xyz.value(), reading_.where(xyz), "the axis of " + joint_text(index), urdf_number);
-      if (std::all_of(axis.begin(), axis.end(), [](const UrdfNumber& x) { return x.is_zero; }))
+      if (std::ranges::all_of(axis, [](const UrdfNumber& x) { return x.is_zero; }))
         throw ModelError(reading_.where(xyz), "the axis of " + joint_text(index) + " is 0", "a direction");
     } else {
       reading_.notice("a joint has no <axis>: x is taken, the default of URDF");

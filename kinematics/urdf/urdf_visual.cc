@@ -78,7 +78,7 @@ bool add_box(const UrdfReading& reading, const pugi::xml_node& box, const Pose& 
   const auto size = urdf_numbers(box.attribute("size").value(), where, "the size of a box", urdf_number);
   for (const UrdfNumber& side : size)
     if (side.approximate < 0) throw ModelError(where, "the size of a box is negative", "three positive lengths");
-  if (std::any_of(size.begin(), size.end(), [](const UrdfNumber& side) { return side.is_zero; })) return false;
+  if (std::ranges::any_of(size, [](const UrdfNumber& side) { return side.is_zero; })) return false;
   const auto corner = [&](int i) {
     Vector point;
     for (std::size_t k = 0; k < 3; ++k) point[k] = (i >> k) & 1 ? half(size[k].value) : -half(size[k].value);

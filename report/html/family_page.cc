@@ -100,8 +100,8 @@ Totals totals_of(const std::vector<FamilyMember>& members) {
 }
 
 bool has_surface(const FamilyMember& member) {
-  return std::any_of(member.sets.begin(), member.sets.end(),
-                     [](const SetView& view) { return view.set->is_cspace() && view.result.cover.dimension > 1; });
+  return std::ranges::any_of(member.sets,
+                             [](const SetView& view) { return view.set->is_cspace() && view.result.cover.dimension > 1; });
 }
 
 Findings family_words(const std::vector<FamilyMember>& members, const FamilyOptions& options) {
@@ -144,7 +144,7 @@ Findings family_words(const std::vector<FamilyMember>& members, const FamilyOpti
 /// The value of the constant, typeset.
 std::string value_html(const FamilyMember& member, const std::string& constant, const std::string& before = "") {
   const auto& all = member.mechanism.constants();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == constant; });
+  const auto found = std::ranges::find_if(all, [&](const auto& c) { return c.name == constant; });
   if (found == all.end()) throw std::invalid_argument(constant + " is not a constant of " + member.mechanism.name());
   return symbolic::math(before + symbolic::mathml(found->value));
 }
@@ -161,8 +161,7 @@ std::vector<Columns> columns_of(const std::vector<FamilyMember>& members) {
     all.push_back({s, {}});
     for (int v = 0; v < kVerdicts; ++v) {
       const auto verdict = static_cast<Verdict>(v);
-      if (std::any_of(members.begin(), members.end(),
-                      [&](const auto& m) { return m.sets[s].result.cover.count(verdict) > 0; }))
+      if (std::ranges::any_of(members, [&](const auto& m) { return m.sets[s].result.cover.count(verdict) > 0; }))
         all.back().verdicts.push_back(verdict);
     }
   }

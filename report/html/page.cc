@@ -105,7 +105,7 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   const std::string aspects_data = aspects_json(aspects);
   page["hasAspectColours"] = aspects_data != "null";
   page["aspectsData"] = aspects_data;
-  page["passages"] = std::any_of(views.begin(), views.end(), [](const SetView& v) { return !v.result.outputs.empty(); });
+  page["passages"] = std::ranges::any_of(views, [](const SetView& v) { return !v.result.outputs.empty(); });
   page["figures"] = list_of("figure", options.figures);
   page["hasFigures"] = !options.figures.empty();
   page["hasFiles"] = !options.files.empty();

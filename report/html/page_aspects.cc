@@ -63,7 +63,7 @@ RegionMap aspects_picture(const std::string& model, const analyze::Aspects& aspe
 std::optional<PageAspects> page_aspects(const study::Question& question, const std::vector<const result::Result*>& results,
                                         int threads, const std::string& limit, solve::Control& control) {
   const auto is_cspace = [](const result::Result* r) { return symbolic::definition(r->set).is_cspace(); };
-  const auto cspace = std::find_if(results.begin(), results.end(), is_cspace);
+  const auto cspace = std::ranges::find_if(results, is_cspace);
   if (!question.model.toleranced().empty()) return std::nullopt;  // they are one robot's
   if (cspace == results.end() || !(*cspace)->cover.complete() || (*cspace)->cover.dimension > 2) return std::nullopt;
   analyze::AspectsOptions wanted{.threads = threads, .requirements = false};

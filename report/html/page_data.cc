@@ -51,8 +51,7 @@ Json coordinates(const symbolic::Mechanism& mechanism, const System& system) {
   return each(mechanism.coordinates(), [&](const symbolic::Coordinate& c) {
     Json entry = {{"name", c.name}, {"label", label(c.name)}, {"role", role(mechanism, c)}};
     if (c.kind == symbolic::CoordinateKind::angle) {
-      const auto angle =
-          std::find_if(system.angles.begin(), system.angles.end(), [&](const Angle& a) { return a.name == c.name; });
+      const auto angle = std::ranges::find_if(system.angles, [&](const Angle& a) { return a.name == c.name; });
       entry.update({{"cosine", angle->cosine}, {"sine", angle->sine}, {"range", bounds(angle->range)}});
     } else {
       const int i = system.find(c.name);

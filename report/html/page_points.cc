@@ -115,8 +115,7 @@ std::string points_html(const std::vector<SetView>& views) {
   for (const SetView& view : views) {
     const Cover& cover = view.result.cover;
     const bool isolated = cover.dimension == 0 && !cover.points.empty();
-    const bool kernels = std::any_of(cover.exact_points.begin(), cover.exact_points.end(),
-                                     [](const ExactPoint& point) { return point.corank > 1; });
+    const bool kernels = std::ranges::any_of(cover.exact_points, [](const ExactPoint& point) { return point.corank > 1; });
     if (isolated || kernels) html += table_html(view);
   }
   return html.empty() ? "<p>No set of this mechanism consists of isolated points.</p>" : html;

@@ -2,7 +2,7 @@
 import {htmlText} from "./values.js";
 
 const kinds =
-  /(?<comment>(?:%|\/\/)[^\n]*)|(?<section>^[ \t]*\[[A-Z][A-Z _]*\])|(?<number>\b\d+(?:\.\d+)?(?:[eE][-+]?\d+)?\b)|(?<word>\b(?:revolute|prismatic|cylindrical|universal|spherical|planar|fixed|helical|sph_sph|rev_sph|actuated|limits|range|zero|length|pose|position|orientation|joint|point|line|unit|link|ground|effector|platform|slider|hinge|ball|circle|keep|sin|cos|tan|sqrt|pi|of)\b)|(?<operator>:=|~|±|\+-|[-+*/^=])/gm;
+  /(?<comment>(?:%|\/\/)[^\n]*)|(?<section>^[ \t]*\[[A-Z][A-Z _]*\])|(?<number>\b\d+(?:\.\d+)?(?:[eE][-+]?\d+)?\b)|(?<word>\b(?:revolute|prismatic|cylindrical|universal|spherical|slot|planar|parallelogram|fix|gear|sph_sph|sph_prs_sph|uni_prs_uni|actuated|limits|range|zero|length|pose|position|orientation|joint|point|line|unit|link|ground|effector|platform|slider|hinge|ball|circle|keep|sin|cos|tan|sqrt|pi|of)\b)|(?<operator>:=|~|±|\+-|[-+*/^=])/gm;
 
 export function highlighted(text) {
   let html = "",

@@ -107,7 +107,7 @@ std::vector<GridPolygon> CellUnion::outlines() const {
   }
   std::vector<std::size_t> by_column(corners.size()), vertical_partner(corners.size());
   std::iota(by_column.begin(), by_column.end(), std::size_t{0});
-  std::sort(by_column.begin(), by_column.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(by_column, [&](std::size_t a, std::size_t b) {
     return std::tie(corners[a].x, corners[a].y) < std::tie(corners[b].x, corners[b].y);
   });
   for (std::size_t k = 0; k + 1 < by_column.size(); k += 2) {

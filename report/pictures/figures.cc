@@ -22,7 +22,7 @@ std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, con
   std::vector<std::string> axes;
   const auto add = [&](const std::string& name) {
     const symbolic::Coordinate& c = mechanism.coordinates()[mechanism.find_coordinate(name)];
-    const bool known = std::find(axes.begin(), axes.end(), name) != axes.end();
+    const bool known = std::ranges::find(axes, name) != axes.end();
     if (!known && axes.size() < 2 && !is_fixed(c)) axes.push_back(name);
   };
   for (const auto* names : {&first, &mechanism.outputs(), &mechanism.inputs()})

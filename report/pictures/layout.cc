@@ -64,7 +64,7 @@ Layout::Shape shape(const PictureLayer& layer, const Scale& x, const Scale& y, d
     const auto [top, bottom] = std::ranges::minmax(p, {}, &GridPoint::y);
     if (std::max(right.x - left.x, bottom.y - top.y) >= 2 * mark_cells) continue;
     const GridPoint first =
-        *std::min_element(p.begin(), p.end(), [](auto& a, auto& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); });
+        *std::ranges::min_element(p, [](auto& a, auto& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); });
     if (cells.holds(first.x, first.y)) result.marked.push_back(p);  // else a hole
   }
   return result;
@@ -78,7 +78,7 @@ double add_legend(const Picture& picture, const TextWidth& text_width, double le
   y += kRow;
   for (const PictureLayer& layer : picture.layers) {
     const Label label{{layer.label + (layer.boxes.empty() ? " (none)" : "")}};
-    if (std::find(seen.begin(), seen.end(), label[0].text) != seen.end()) continue;
+    if (std::ranges::find(seen, label[0].text) != seen.end()) continue;
     seen.push_back(label[0].text);
     const double width = kSwatch + kGap + text_width(label, kLegendSize);
     if (x > left && x + width > right) x = left, y += kRow;

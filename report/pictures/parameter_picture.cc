@@ -125,9 +125,8 @@ class Drawing {
   void add_dots() {
     for (const auto& c : in_.cells) {
       if (c.proven || !c.number) continue;
-      const bool covered = std::any_of(in_.boundary.begin(), in_.boundary.end(), [&](const ParameterPicture::CurveBox& b) {
-        return b.x.overlaps(c.x) && b.y.overlaps(c.y);
-      });
+      const bool covered = std::ranges::any_of(
+          in_.boundary, [&](const ParameterPicture::CurveBox& b) { return b.x.overlaps(c.x) && b.y.overlaps(c.y); });
       if (covered) continue;
       const double width = kPlaneWidth * c.x.width() / in_.x_range.width(),
                    height = kPlaneWidth * c.y.width() / in_.y_range.width();

@@ -59,7 +59,7 @@ struct Coordinate {
     }
     if (parts.empty()) return {x};
     const auto wide = [](const Interval& part) { return part.width() > kSliver; };
-    if (std::any_of(parts.begin(), parts.end(), wide))
+    if (std::ranges::any_of(parts, wide))
       std::erase_if(parts, [&](const Interval& part) { return !wide(part); });
     else
       parts.resize(1);
@@ -117,7 +117,7 @@ PictureLayer layer_of(const PictureSource& source, const SetStyle& style, ColorS
 int rank(const PictureLayer& layer) {
   static const std::vector<std::string> kOrder{"regular", "boundary", "isolated", "exact",
                                                "partial", "pending",  "undecided"};
-  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), layer.label) - kOrder.begin());
+  return static_cast<int>(std::ranges::find(kOrder, layer.label) - kOrder.begin());
 }
 
 void add_layers(const PictureSource& source, const SetStyle& style, const std::vector<Coordinate>& coordinates,
@@ -156,7 +156,7 @@ void add_passages(const PictureSource& source, const SetStyle& style, const std:
                   const PictureOptions& options, std::vector<PictureLayer>& layers) {
   constexpr Color kOpen{0.93, 0.60, 0.12}, kUnknown{0.45, 0.45, 0.47};
   for (const Passage passage : {Passage::traversable, Passage::barrier, Passage::unproven}) {
-    if (std::find(source.passages.begin(), source.passages.end(), passage) == source.passages.end()) continue;
+    if (std::ranges::find(source.passages, passage) == source.passages.end()) continue;
     SetStyle own = style;
     own.label += std::string(": ") + to_string(passage);
     if (passage != Passage::barrier) own.color = passage == Passage::traversable ? kOpen : kUnknown;
@@ -169,7 +169,7 @@ void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coo
                  const std::vector<std::string>& axes, std::vector<PictureHatch>& hatches) {
   std::array<std::size_t, 2> place{};
   for (std::size_t j = 0; j < 2; ++j) {
-    const auto at = std::find(source.outputs.begin(), source.outputs.end(), axes[j]);
+    const auto at = std::ranges::find(source.outputs, axes[j]);
     if (at == source.outputs.end()) return;
     place[j] = at - source.outputs.begin();
   }
@@ -202,7 +202,7 @@ std::vector<SetStyle> set_styles(const std::vector<const PictureSource*>& source
     const auto same = [&](const PictureSource* s) { return s->set == sources[k]->set; };
     if (!symbolic::definition(sources[k]->set).set) {
       styles[k].color = kOthers[others++ % kOthers.size()];
-    } else if (std::count_if(sources.begin(), sources.end(), same) > 1) {
+    } else if (std::ranges::count_if(sources, same) > 1) {
       const double light =
           1 - std::pow(0.65, std::count_if(sources.begin(), sources.begin() + static_cast<std::ptrdiff_t>(k), same));
       styles[k].label += " (" + std::filesystem::path(sources[k]->file).stem().string() + ")";
@@ -247,7 +247,7 @@ PictureSource picture_source(const result::SolFile& boxes, const std::string& fi
   const auto& names = boxes.variables;
   for (std::size_t c = 0; c < names.size(); ++c) {
     if (!names[c].starts_with("c_")) continue;
-    const auto s = std::find(names.begin(), names.end(), "s_" + names[c].substr(2));
+    const auto s = std::ranges::find(names, "s_" + names[c].substr(2));
     if (s == names.end()) continue;
     source.angles.push_back({names[c].substr(2), static_cast<int>(c), static_cast<int>(s - names.begin()), kCircle});
   }
@@ -285,13 +285,12 @@ Picture make_picture(const std::vector<PictureSource>& sources, const PictureOpt
     if (passes && coordinates.size() == 2) add_hatches(*source, coordinates, options.axes, picture.hatches);
   }
   if (options.color == ColorScheme::verdict)
-    std::stable_sort(picture.layers.begin(), picture.layers.end(),
-                     [](const PictureLayer& a, const PictureLayer& b) { return rank(a) < rank(b); });
+    std::ranges::stable_sort(picture.layers, [](const PictureLayer& a, const PictureLayer& b) { return rank(a) < rank(b); });
   return picture;
 }
 
 bool is_empty(const Picture& picture) {
-  return std::all_of(picture.layers.begin(), picture.layers.end(), [](const PictureLayer& l) { return l.boxes.empty(); });
+  return std::ranges::all_of(picture.layers, [](const PictureLayer& l) { return l.boxes.empty(); });
 }
 
 Color verdict_color(std::optional<Verdict> verdict) {

@@ -55,7 +55,7 @@ void write_portrait(const std::filesystem::path& path, const Picture& picture, c
 std::vector<std::string> write_small_multiples(const std::filesystem::path& folder, const std::vector<Picture>& pictures,
                                                const std::vector<std::string>& titles) {
   constexpr std::size_t kColumns = 4;
-  if (std::all_of(pictures.begin(), pictures.end(), is_empty)) return {};
+  if (std::ranges::all_of(pictures, is_empty)) return {};
   PortraitOptions options;
   options.ranges = common_ranges(pictures);
   std::vector<std::string> files;

@@ -32,8 +32,8 @@ std::string bound_text(double x, int rounding_mode) {
 
 // No brace outside boxes: to CUIK's reader each one begins a box.
 std::string without_braces(std::string text) {
-  std::replace(text.begin(), text.end(), '{', '(');
-  std::replace(text.begin(), text.end(), '}', ')');
+  std::ranges::replace(text, '{', '(');
+  std::ranges::replace(text, '}', ')');
   return text;
 }
 

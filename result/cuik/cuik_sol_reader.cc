@@ -159,7 +159,7 @@ class SolParser {
       fail("the verdict " + shown(word) + " is followed by " + shown(rest), "free and names of variables");
     std::istringstream names{std::string(rest.substr(5))};
     for (std::string name; names >> name; box.free.push_back(name)) {
-      if (std::find(out_.variables.begin(), out_.variables.end(), name) == out_.variables.end())
+      if (std::ranges::find(out_.variables, name) == out_.variables.end())
         fail("the free variable " + shown(name) + " is not a variable of the box", "names of its variables");
     }
   }
@@ -185,7 +185,7 @@ std::string read_cuik_text(const std::filesystem::path& path, const std::string&
 }
 
 int SolFile::find(const std::string& name_or_number) const {
-  const auto named = std::find(variables.begin(), variables.end(), name_or_number);
+  const auto named = std::ranges::find(variables, name_or_number);
   if (named != variables.end()) return static_cast<int>(named - variables.begin());
   int number = 0;
   const char* const end = name_or_number.data() + name_or_number.size();

@@ -213,7 +213,7 @@ class Reader {
     if (n_ == 0 || texts.size() != cover_.points.size() * n_)
       refuse(kGroup + "decimals has another length than the list of points");
     const auto is_decimal = [](const std::string& t) { return t.find_first_not_of("-.0123456789") == std::string::npos; };
-    if (!std::all_of(texts.begin(), texts.end(), is_decimal)) refuse(kGroup + "decimals holds a text that is not a number");
+    if (!std::ranges::all_of(texts, is_decimal)) refuse(kGroup + "decimals holds a text that is not a number");
     for (std::size_t i = 0; i < cover_.points.size(); ++i) {
       const auto from = texts.begin() + static_cast<std::ptrdiff_t>(i * n_);
       cover_.decimals.emplace_back(from, from + static_cast<std::ptrdiff_t>(n_));
@@ -223,9 +223,8 @@ class Reader {
 
   Proof proof() const {
     Proof proof;
-    const auto eliminated = static_cast<std::size_t>(
-        std::count_if(cover_.reduction.begin(), cover_.reduction.end(),
-                      [](const ReductionStep& step) { return std::holds_alternative<Elimination>(step); }));
+    const auto eliminated = static_cast<std::size_t>(std::ranges::count_if(
+        cover_.reduction, [](const ReductionStep& step) { return std::holds_alternative<Elimination>(step); }));
     if (n_ < eliminated) refuse("more variables were eliminated than there are");
     proof.roots = read_list<Box>(file_, kProof + "root_", box_fields(n_ - eliminated), Storage::packed);
     if (n_ == eliminated) proof.roots.resize(1);  // the only point that there is, without a number
@@ -299,7 +298,7 @@ std::vector<CoverBox> read_boxes(Hdf5Reader& file, const std::string& group, std
                    for (std::size_t k = 0; k < (sides ? sides->size() : n); ++k)
                      add(sides ? static_cast<std::size_t>((*sides)[k]) : k);
                    if (!with_free) return;
-                   b.free.reserve(n - std::count(free.begin(), free.end(), 0));
+                   b.free.reserve(n - std::ranges::count(free, 0));
                    for (std::size_t j = 0; j < n; ++j)
                      if (free[j] != 0) b.free.push_back(static_cast<int>(j));
                  });

@@ -120,7 +120,7 @@ std::vector<std::uint8_t> Hdf5Reader::enumeration(const std::string& name, const
     const auto& [value, word] = item.words[k];
     if (place[value] >= 0) fail(name + " is a damaged enumeration");
     place[value] = static_cast<int>(k);
-    const auto found = std::find(words.begin(), words.end(), word);
+    const auto found = std::ranges::find(words, word);
     if (found != words.end()) meaning[value] = static_cast<int>(found - words.begin());
   }
   std::vector<std::uint8_t> data = item.copied<std::uint8_t>();

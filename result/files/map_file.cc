@@ -25,7 +25,7 @@ Cover cover_of(const MapClaims& claims, const std::vector<int>& parameters) {
       box.box = sheet.box;
       box.verdict = Verdict::regular;
       box.free = parameters;
-      std::sort(box.free.begin(), box.free.end());
+      std::ranges::sort(box.free);
       box.region = static_cast<int>(cover.regions.size());
       cover.regions.push_back(sheet.region);
     }

@@ -15,7 +15,7 @@ namespace corank::result {
 namespace {
 
 bool is_linear_and_exact(const Polynomial& f) {
-  return !f.monomials.empty() && std::all_of(f.monomials.begin(), f.monomials.end(), [](const Monomial& m) {
+  return !f.monomials.empty() && std::ranges::all_of(f.monomials, [](const Monomial& m) {
     return m.coefficient.is_rational() && m.degree() <= 1 && !m.is_trigonometric() && !certify::carries_tolerance(m);
   });
 }
@@ -65,7 +65,7 @@ class LinearRelations {
   Polynomial reduced(Polynomial f) const {
     for (int v = 0; v < system_.size(); ++v) {
       const auto inside = [v](const Monomial& m) { return m.is_trigonometric() && m.factors[0].variable == v; };
-      if (value(v) && certify::mentions(f, v) && std::none_of(f.monomials.begin(), f.monomials.end(), inside))
+      if (value(v) && certify::mentions(f, v) && std::ranges::none_of(f.monomials, inside))
         f = certify::substitute(f, v, *value(v));
     }
     return f;
@@ -107,8 +107,7 @@ class Sentence {
 
   std::string text() {
     for (const symbolic::Coordinate& c : mechanism_.coordinates()) {
-      const auto angle =
-          std::find_if(system_.angles.begin(), system_.angles.end(), [&](const Angle& a) { return a.name == c.name; });
+      const auto angle = std::ranges::find_if(system_.angles, [&](const Angle& a) { return a.name == c.name; });
       if (angle != system_.angles.end()) {
         if (!c.auxiliary) sort_angle(*angle);
       } else if (const int v = system_.find(c.name); v >= 0 && !c.auxiliary) {
@@ -150,7 +149,7 @@ class Sentence {
 
   void put_fixed(const std::string& coordinate, const std::string& text) {
     const symbolic::Role role = symbolic::role_of(mechanism_, coordinate);
-    const bool locked = std::find(locked_roles_.begin(), locked_roles_.end(), role) != locked_roles_.end();
+    const bool locked = std::ranges::find(locked_roles_, role) != locked_roles_.end();
     (locked ? locked_ : fixed_).push_back(text);
   }
 
@@ -230,7 +229,7 @@ class Sentence {
         if (certify::mentions(f, v) && !staying_.contains(v)) (is_kernel(v) ? kernel : others) = true;
       }
       if (!others) continue;
-      const auto circle = std::any_of(free_.begin(), free_.end(), [&](const Free& t) { return t.angle && is_circle(f, t); });
+      const auto circle = std::ranges::any_of(free_, [&](const Free& t) { return t.angle && is_circle(f, t); });
       if (kernel || !circle) return false;
     }
     return true;
@@ -321,8 +320,7 @@ void describe_in_words(const symbolic::Mechanism& mechanism, const System& syste
   const UpwardRounding rounding;
   for (const SelfMotionRecord& motion : result.cover.self_motions) {
     try {
-      if (!std::all_of(motion.relations.begin(), motion.relations.end(), is_linear_and_exact))
-        throw std::domain_error("no relations to speak of");
+      if (!std::ranges::all_of(motion.relations, is_linear_and_exact)) throw std::domain_error("no relations to speak of");
       result.motions.push_back(Sentence(mechanism, system, motion, result.set).text());
     } catch (const std::domain_error&) {  // numbers of too many bits: a stranger's file
       result.motions.emplace_back();

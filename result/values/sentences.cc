@@ -71,8 +71,7 @@ Thing thing(const System& system, const Contact& contact) {
 
 bool is_of(const System& system, const Result& result) {
   return result.variables.size() == system.variables.size() &&
-         std::all_of(result.cover.boxes.begin(), result.cover.boxes.end(),
-                     [&](const CoverBox& b) { return b.box.size() == system.variables.size(); });
+         std::ranges::all_of(result.cover.boxes, [&](const CoverBox& b) { return b.box.size() == system.variables.size(); });
 }
 
 std::string sentence(const char* verb, const std::vector<std::string>& names) {
@@ -253,7 +252,7 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
     for (const Contact& contact : contacts) {
       const Thing with = thing(system, contact);
       if (!with.range.empty()) ends[with.range] = ends[with.range] || contact.reached;
-      if (std::find(of_box.begin(), of_box.end(), with.reason) == of_box.end()) of_box.push_back(with.reason);
+      if (std::ranges::find(of_box, with.reason) == of_box.end()) of_box.push_back(with.reason);
     }
     if (b.verdict != Verdict::boundary) return;
     for (const std::string& reason : of_box) ++reasons[reason];
@@ -271,8 +270,7 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
   }
   for (const auto& [reason, boxes] : reasons) result.domain.boundary.push_back({reason, boxes});
   if (others > 0) result.domain.boundary.push_back({"rounding", others});
-  std::stable_sort(result.domain.boundary.begin(), result.domain.boundary.end(),
-                   [](const auto& a, const auto& b) { return a.boxes > b.boxes; });
+  std::ranges::stable_sort(result.domain.boundary, [](const auto& a, const auto& b) { return a.boxes > b.boxes; });
 }
 
 std::vector<std::string> range_end_sentences(const DomainNotes& notes) {

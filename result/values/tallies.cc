@@ -53,7 +53,7 @@ std::vector<Value> own_coordinates(const Result& result, int variables) {
   for (int i = 0; i < variables; ++i) {
     if (result.variables[i].kind == VariableKind::parameter) continue;  // it has its whole domain everywhere
     const auto has = [i](const Angle& a) { return a.cosine == i || a.sine == i; };
-    const auto angle = std::find_if(result.angles.begin(), result.angles.end(), has);
+    const auto angle = std::ranges::find_if(result.angles, has);
     if (angle == result.angles.end()) {
       list.push_back({result.variables[i].name, {}, i});
     } else if (i == std::min(angle->cosine, angle->sine)) {

@@ -68,7 +68,7 @@ ExactNumber combine(const ex& e, const ExactNumber& neutral, Combine&& op) {
     std::string key = number.is_rational() ? "" : number.text();
     parts.emplace_back(std::move(key), std::move(number));
   }
-  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(parts, [](const auto& a, const auto& b) { return a.first < b.first; });
   ExactNumber result = neutral;
   for (const auto& [key, part] : parts) result = op(result, part);
   return result;

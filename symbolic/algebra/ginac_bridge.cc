@@ -171,7 +171,7 @@ std::vector<GinacBridge::Factor> GinacBridge::factors(const ex& term, numeric& c
     result.push_back({rank(base), base, exponent});
   };
   for (const ex& f : parts_of<GiNaC::mul>(term)) add(f);
-  std::stable_sort(result.begin(), result.end(), [](const Factor& a, const Factor& b) { return a.order < b.order; });
+  std::ranges::stable_sort(result, [](const Factor& a, const Factor& b) { return a.order < b.order; });
   return result;
 }
 
@@ -213,7 +213,7 @@ const GiNaC::exvector& GinacBridge::ordered_terms(const ex& sum) const {
       key.emplace_back(part.order, part.exponent.info(GiNaC::info_flags::negative), expression(part).text());
     terms.emplace_back(std::move(key), term);
   }
-  std::stable_sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(terms, [](const auto& a, const auto& b) { return a.first < b.first; });
   GiNaC::exvector result;
   for (const auto& [key, term] : terms) result.push_back(term);
   return ordered_.emplace(sum, std::move(result)).first->second;

@@ -27,8 +27,8 @@ int LengthFunctions::argument(const ExpandedPolynomial& lengths) {
 }
 
 std::pair<ExpandedPolynomial, ExpandedPolynomial> LengthFunctions::cosine_and_sine(int argument) {
-  const auto known = std::find_if(stand_ins_.begin(), stand_ins_.end(),
-                                  [&](const StandIn& s) { return !is_sum(s) && s.argument == argument; });
+  const auto known =
+      std::ranges::find_if(stand_ins_, [&](const StandIn& s) { return !is_sum(s) && s.argument == argument; });
   const int cosine = first_ + static_cast<int>(known - stand_ins_.begin());
   if (known == stand_ins_.end()) {
     stand_ins_.push_back({Function::cosine, argument, {}});
@@ -57,10 +57,9 @@ void LengthFunctions::replace(std::vector<Polynomial>& polynomials) const {
         const StandIn& s = stand_ins_[factor.variable - first_];
         factor = s.multiplied ? Factor{s.variable, factor.power} : Factor{s.argument, 1, s.function};
       }
-      std::sort(monomial.factors.begin(), monomial.factors.end(),
-                [](const Factor& f, const Factor& g) { return f.variable < g.variable; });
+      std::ranges::sort(monomial.factors, [](const Factor& f, const Factor& g) { return f.variable < g.variable; });
     }
-    std::sort(polynomial.monomials.begin(), polynomial.monomials.end(), before);
+    std::ranges::sort(polynomial.monomials, before);
   }
 }
 

@@ -29,7 +29,7 @@ constexpr std::array<KindOfPart, 10> kKinds{{{DrawingPart::Kind::link, "link", 2
                                              {DrawingPart::Kind::cylinder, "cylinder", 2, true, "cylinder A B radius r"}}};
 
 const KindOfPart& row_of(DrawingPart::Kind kind) {
-  return *std::find_if(kKinds.begin(), kKinds.end(), [kind](const KindOfPart& k) { return k.kind == kind; });
+  return *std::ranges::find_if(kKinds, [kind](const KindOfPart& k) { return k.kind == kind; });
 }
 
 void validate_colour(const DrawingPart& part) {
@@ -72,11 +72,11 @@ void validate(const DrawingPart& part, const std::set<std::string>& known) {
 const char* to_string(DrawingPart::Kind kind) { return row_of(kind).word; }
 
 DrawingPart::Kind drawing_part_of(std::string_view word) {
-  return std::find_if(kKinds.begin(), kKinds.end(), [word](const KindOfPart& k) { return k.word == word; })->kind;
+  return std::ranges::find_if(kKinds, [word](const KindOfPart& k) { return k.word == word; })->kind;
 }
 
 int Drawing::find(const std::string& point) const {
-  const auto found = std::find_if(points.begin(), points.end(), [&](const DrawingPoint& p) { return p.name == point; });
+  const auto found = std::ranges::find_if(points, [&](const DrawingPoint& p) { return p.name == point; });
   return found == points.end() ? -1 : static_cast<int>(found - points.begin());
 }
 

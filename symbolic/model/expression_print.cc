@@ -93,7 +93,7 @@ std::string latex_subscript(std::string_view text) {
     text.remove_prefix(std::min(n + 1, text.size()));
     if (piece.empty()) continue;
     if (!result.empty()) result += ',';
-    result += std::all_of(piece.begin(), piece.end(), is_letter) ? latex_word(piece, "\\mathrm") : std::string(piece);
+    result += std::ranges::all_of(piece, is_letter) ? latex_word(piece, "\\mathrm") : std::string(piece);
   }
   return result;
 }

@@ -27,12 +27,10 @@ std::string_view take_digits(std::string_view& text) {
 
 bool is_identifier(std::string_view name) {
   return !name.empty() && !is_digit(name[0]) &&
-         std::all_of(name.begin(), name.end(), [](char c) { return is_letter_of_name(c) || is_digit(c); });
+         std::ranges::all_of(name, [](char c) { return is_letter_of_name(c) || is_digit(c); });
 }
 
-bool is_function_name(std::string_view name) {
-  return std::find(kFunctions.begin(), kFunctions.end(), name) != kFunctions.end();
-}
+bool is_function_name(std::string_view name) { return std::ranges::find(kFunctions, name) != kFunctions.end(); }
 
 std::string function_names() { return joined({kFunctions.begin(), kFunctions.end()}); }
 

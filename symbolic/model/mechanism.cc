@@ -259,7 +259,7 @@ std::vector<Constraint> Mechanism::equations() const {
 
 bool Mechanism::is_plain_system() const {
   return inputs_.empty() && outputs_.empty() &&
-         std::all_of(rates_.begin(), rates_.end(), [](const Rate& rate) { return rate.role == Role::passive; });
+         std::ranges::all_of(rates_, [](const Rate& rate) { return rate.role == Role::passive; });
 }
 
 void Mechanism::validate_rates(const ModelValidator& validator) const {

@@ -77,7 +77,7 @@ void ModelValidator::check_velocity_equation(const Constraint& equation) const {
   bool any = false;
   for (const Expression& side : {equation.relation.lhs, equation.relation.rhs}) {
     check(side, context);
-    any = any || std::any_of(rates_.begin(), rates_.end(), [&](const auto& rate) { return side.mentions(rate.first); });
+    any = any || std::ranges::any_of(rates_, [&](const auto& rate) { return side.mentions(rate.first); });
   }
   if (!any)
     throw ModelError(equation.where, "the velocity equation `" + equation.relation.text() + "` holds no rate",

@@ -18,8 +18,8 @@ namespace corank::symbolic {
 namespace {
 
 bool mentions(const Relation& relation, const std::vector<std::string>& names) {
-  return std::any_of(names.begin(), names.end(),
-                     [&](const std::string& name) { return relation.lhs.mentions(name) || relation.rhs.mentions(name); });
+  return std::ranges::any_of(
+      names, [&](const std::string& name) { return relation.lhs.mentions(name) || relation.rhs.mentions(name); });
 }
 
 class Algebrizer {
@@ -216,8 +216,7 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
 // In place of the circle, on which the other angle is.
 void Algebrizer::add_dependent_angle(const DependentAngle& dependent) {
   const Expression angle = Expression::symbol(dependent.angle);
-  const auto own =
-      std::find_if(out_.angles.begin(), out_.angles.end(), [&](const Angle& a) { return a.name == dependent.angle; });
+  const auto own = std::ranges::find_if(out_.angles, [&](const Angle& a) { return a.name == dependent.angle; });
   for (const auto& [function, variable] : {std::pair("cos", own->cosine), std::pair("sin", own->sine)}) {
     const ExpandedPolynomial value =
         expander_.polynomial(Expression::function(function, {angle}), dependent.text(), {in_.name, 0, 0});

@@ -72,7 +72,7 @@ KernelQuestion question(const Outline& o, const BoundaryPart& part) {
   kernel.drop(o.velocity.dependencies(set.locked));
   ExpressionMatrix& m = kernel.matrix;
   for (const Active& active : part.active) {
-    const auto at = std::find(m.columns.begin(), m.columns.end(), active.coordinate) - m.columns.begin();
+    const auto at = std::ranges::find(m.columns, active.coordinate) - m.columns.begin();
     m.columns.erase(m.columns.begin() + at);
     m.roles.erase(m.roles.begin() + at);
     for (auto& row : m.rows) row.erase(row.begin() + at);

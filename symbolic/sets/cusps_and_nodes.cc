@@ -106,7 +106,7 @@ void add_second(Equations& list, const Names& names) {
     const auto in = [&](const auto& name) {
       return list[i].relation.lhs.mentions(name.first) || list[i].relation.rhs.mentions(name.first);
     };
-    if (!std::any_of(names.begin(), names.end(), in)) continue;
+    if (!std::ranges::any_of(names, in)) continue;
     TrigonometricSystem::Equation copy = list[i];
     copy.relation = copy.relation.substituted(names);
     copy.source += ", second configuration";
@@ -217,7 +217,7 @@ TrigonometricSystem node_system(const Mechanism& mechanism, SingularitySet set, 
   const std::size_t n_q = system.coordinates.size();
   for (std::size_t c = 0; c < n_q; ++c) {
     Coordinate copy = system.coordinates[c];
-    if (std::find(columns.begin(), columns.end(), copy.name) == columns.end()) continue;
+    if (std::ranges::find(columns, copy.name) == columns.end()) continue;
     const std::string second = second_name(mechanism, copy.name);
     names[copy.name] = Expression::symbol(second);
     copy.name = second;
@@ -234,7 +234,7 @@ TrigonometricSystem node_system(const Mechanism& mechanism, SingularitySet set, 
   std::vector<Expression> difference;
   for (std::size_t c = 0; c < n_q; ++c) {
     const Coordinate& coordinate = system.coordinates[c];
-    const auto column = std::find(columns.begin(), columns.end(), coordinate.name);
+    const auto column = std::ranges::find(columns, coordinate.name);
     if (column == columns.end()) continue;
     const Expression y = Expression::symbol(coordinate.name), other = names.at(coordinate.name);
     if (coordinate.kind == CoordinateKind::angle) {

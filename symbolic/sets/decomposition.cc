@@ -120,8 +120,7 @@ std::vector<DependentAngle> dependent_angles_of(const Space& space, const Expres
   const int sign = is_sine == same ? -1 : 1;  // sin(a + b) = 0: a = −b; cos(a − b) = 0: a = b ± π/2
   std::vector<DependentAngle> angles;
   for (const int quarters : {0, 2}) angles.push_back({later, earlier, sign, quarters + (is_sine ? 0 : 1)});
-  const bool both =
-      std::all_of(angles.begin(), angles.end(), [&](const DependentAngle& angle) { return space.has_system(angle); });
+  const bool both = std::ranges::all_of(angles, [&](const DependentAngle& angle) { return space.has_system(angle); });
   return both ? angles : std::vector<DependentAngle>{};
 }
 
@@ -183,8 +182,7 @@ class Decomposer {
   }
 
   void add(Component component) {
-    if (std::find(components_.begin(), components_.end(), component) == components_.end())
-      components_.push_back(std::move(component));
+    if (std::ranges::find(components_, component) == components_.end()) components_.push_back(std::move(component));
   }
 
   void add_block(const SquareBlock& block) {
@@ -227,7 +225,7 @@ class Decomposer {
       return std::nullopt;
     }
     // GiNaC's order, and so FLINT's, is another in each process.
-    std::sort(result.conditions.begin(), result.conditions.end(), [](const Expression& a, const Expression& b) {
+    std::ranges::sort(result.conditions, [](const Expression& a, const Expression& b) {
       return std::pair(a.text().size(), a.text()) < std::pair(b.text().size(), b.text());
     });
     if (block.rows.size() > kMostRows && result.conditions.size() == 1 && !matrix_.is_explicit()) return std::nullopt;
@@ -244,7 +242,7 @@ class Decomposer {
     }
     const std::string name = fmt::format("condition on {}", fmt::join(mentioned, ", "));
     const auto is_alike = [&name](const Component& c) { return c.name == name || c.name.rfind(name + " (", 0) == 0; };
-    const auto alike = std::count_if(components_.begin(), components_.end(), is_alike);
+    const auto alike = std::ranges::count_if(components_, is_alike);
     return alike == 0 ? name : fmt::format("{} ({})", name, alike + 1);
   }
 
@@ -275,7 +273,7 @@ std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestio
   }
   // A row of zeros, which a dependency has, says nothing about the kernel.
   std::erase_if(matrix.rows, [](const std::vector<Expression>& row) {
-    return std::all_of(row.begin(), row.end(), [](const Expression& e) { return same_tree(e, 0); });
+    return std::ranges::all_of(row, [](const Expression& e) { return same_tree(e, 0); });
   });
   if (!kernel.also.empty() || matrix.rows.size() != matrix.columns.size()) return {};
   PassiveRates passive = eliminate_passive_rates(mechanism, matrix);

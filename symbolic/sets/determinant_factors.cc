@@ -37,7 +37,7 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
       const RationalPolynomial on_cspace = m.is_explicit() ? m.in_free_coordinates(factor, ended) : factor;
       if (on_cspace.is_zero()) throw vanishing();
       for (RationalPolynomial& f : on_cspace.factors(ended).value_or(std::vector{on_cspace}))
-        if (std::find(factors.begin(), factors.end(), f) == factors.end()) factors.push_back(std::move(f));
+        if (std::ranges::find(factors, f) == factors.end()) factors.push_back(std::move(f));
     }
   }
   std::vector<Expression> result;
@@ -46,7 +46,7 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
       result.push_back(std::move(*condition));
     else if (constants != nullptr && !factor.is_number())
       constants->push_back(m.expression(factor));
-  std::sort(result.begin(), result.end(), [](const Expression& a, const Expression& b) { return a.text() < b.text(); });
+  std::ranges::sort(result, [](const Expression& a, const Expression& b) { return a.text() < b.text(); });
   return result;
 }
 

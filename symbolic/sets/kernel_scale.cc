@@ -100,7 +100,7 @@ std::string number(double size, int exponent) {
 
 // None where all are 1.
 std::vector<std::string> without_ones(std::vector<std::string> texts) {
-  const bool ones = std::all_of(texts.begin(), texts.end(), [](const std::string& text) { return text == "1"; });
+  const bool ones = std::ranges::all_of(texts, [](const std::string& text) { return text == "1"; });
   return ones ? std::vector<std::string>{} : std::move(texts);
 }
 
@@ -230,7 +230,7 @@ std::vector<std::string> scales_of_rates(const Mechanism& mechanism, const Kerne
     return without_ones(result);
   }
   const std::vector<std::size_t>& eliminated = kernel.passive.eliminated;
-  const bool angles = std::find(sizes.begin(), sizes.end(), 0) != sizes.end();
+  const bool angles = std::ranges::find(sizes, 0) != sizes.end();
   double largest = 0;
   for (std::size_t j = 0; j < sizes.size(); ++j)
     if (!std::binary_search(eliminated.begin(), eliminated.end(), j)) largest = std::max(largest, sizes[j]);

@@ -130,7 +130,7 @@ void keep_limits(const Mechanism& mechanism, std::vector<Coordinate>& coordinate
 
 void find_ranges(TrigonometricSystem& system) {
   const auto lacks_range = [](const Coordinate& c) { return !c.has_range; };
-  if (std::none_of(system.coordinates.begin(), system.coordinates.end(), lacks_range)) return;
+  if (std::ranges::none_of(system.coordinates, lacks_range)) return;
   for (Coordinate& c : system.coordinates)
     if (!c.has_range) c.lower = -1, c.upper = 1;  // nobody looks at them before they are found
   const System polynomials = algebrize(system);

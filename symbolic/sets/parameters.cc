@@ -105,8 +105,7 @@ class Family {
   }
 
   bool is_free(const Expression& e) const {  // of parameters
-    return std::none_of(parameter_names_.begin(), parameter_names_.end(),
-                        [&](const std::string& name) { return depends(e, name); });
+    return std::ranges::none_of(parameter_names_, [&](const std::string& name) { return depends(e, name); });
   }
 
   void split_constants() {

@@ -43,7 +43,7 @@ std::size_t term_rank(const std::vector<std::vector<std::size_t>>& filled, std::
 std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<std::vector<std::size_t>>& filled) {
   const std::size_t n = filled.size();
   const std::vector<Vertex> partner = matching(filled, n);
-  if (std::any_of(partner.begin(), partner.end(), is_alone)) return std::nullopt;
+  if (std::ranges::any_of(partner, is_alone)) return std::nullopt;
 
   // An arrow from row i to the row whose partner is a column that i fills: rows of one block reach each other.
   using Directed = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS>;
@@ -58,9 +58,8 @@ std::optional<std::vector<SquareBlock>> block_triangular_form(const std::vector<
     blocks[component[i]].rows.push_back(i);
     blocks[component[i]].columns.push_back(partner[i] - n);
   }
-  for (SquareBlock& block : blocks) std::sort(block.columns.begin(), block.columns.end());
-  std::sort(blocks.begin(), blocks.end(),
-            [](const SquareBlock& a, const SquareBlock& b) { return a.rows.front() < b.rows.front(); });
+  for (SquareBlock& block : blocks) std::ranges::sort(block.columns);
+  std::ranges::sort(blocks, [](const SquareBlock& a, const SquareBlock& b) { return a.rows.front() < b.rows.front(); });
   return blocks;
 }
 
@@ -155,8 +154,8 @@ class ExactMatrix::Unknowns {
       const std::size_t k = place == index_.end() ? seen.size() : place->second;
       if (k == seen.size() || seen[k]) continue;
       const auto holds = [&](const RationalPolynomial::Term& term) { return term.powers[k] > 0; };
-      const auto own = std::find_if(terms.begin(), terms.end(), holds);
-      if (own == terms.end() || std::count_if(terms.begin(), terms.end(), holds) != 1) continue;
+      const auto own = std::ranges::find_if(terms, holds);
+      if (own == terms.end() || std::ranges::count_if(terms, holds) != 1) continue;
       if (std::accumulate(own->powers.begin(), own->powers.end(), std::uint64_t{0}) != 1) continue;
       const RationalPolynomial x = RationalPolynomial::unknown(*ring_, k);
       return std::pair(k, x - f.over(RationalPolynomial::number(*ring_, own->coefficient)));

@@ -21,7 +21,7 @@ std::vector<std::string> kernel_names(const Mechanism& mechanism, std::size_t n,
     for (std::size_t v = 0; v < vectors; ++v)
       for (std::size_t i = 0; i < n; ++i)
         names.push_back(prefix + (vectors > 1 ? std::to_string(v + 1) + "_" : "") + std::to_string(i + 1));
-    if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return mechanism.has(name); })) return names;
+    if (std::ranges::none_of(names, [&](const std::string& name) { return mechanism.has(name); })) return names;
   }
 }
 

@@ -11,7 +11,7 @@
 namespace corank::symbolic {
 namespace {
 
-bool contains(const auto& list, const auto& item) { return std::find(list.begin(), list.end(), item) != list.end(); }
+bool contains(const auto& list, const auto& item) { return std::ranges::find(list, item) != list.end(); }
 
 bool is_zero(const Expression& e) { return same_tree(e, Expression(0)); }
 
@@ -174,7 +174,7 @@ std::vector<std::size_t> VelocityEquation::dependencies(std::span<const Role> lo
   std::vector<std::size_t> rows;
   if (left.columns.empty() || left.columns.size() == matrix.columns.size()) return rows;
   for (std::size_t i = 0; i < left.rows.size(); ++i)
-    if (std::all_of(left.rows[i].begin(), left.rows[i].end(), is_zero)) rows.push_back(i);
+    if (std::ranges::all_of(left.rows[i], is_zero)) rows.push_back(i);
   return rows;
 }
 

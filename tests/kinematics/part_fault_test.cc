@@ -182,7 +182,7 @@ std::vector<FaultCase> faults() {
       {"OutputOfAnUnknownJoint", sections("[OUTPUTS] t : joint tarn"), "6:21", "there is no joint 'tarn'",
        "did you mean 'turn'?"},
       {"OutputOfAFixedJoint", sections("[OUTPUTS] t : joint hold"), "6:11",
-       "the output 't' is of the fix joint 'hold', which has no angle or displacement of its own", "a revolute"},
+       "the output 't' is of the fix joint 'hold', which has no angle or displacement of its own", "the kind revolute"},
       {"OutputOfAnActuatedJoint", sections("[INPUTS] turn [OUTPUTS] t : joint turn"), "6:25",
        "the output 't' is of the revolute joint 'turn', which is actuated", "a joint that no actuator drives"},
       {"OutputOfAnUnknownLink", sections("[OUTPUTS] p : position of harm.P"), "6:27", "there is no link 'harm'",

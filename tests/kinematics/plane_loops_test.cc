@@ -221,5 +221,15 @@ TEST(PlaneLoops, SlideToo) {
   EXPECT_NEAR(values.at("p_z"), -std::sin(j2), 1e-9);
 }
 
+// A leg between universal joints holds more than a length: its axes stay in a plane with it.
+TEST(PlaneLoops, LeaveLegsBetweenUniversalJointsToSpace) {
+  const Assembly a = assembled(
+      "[LINKS]\nbase\narm\nhand\n[JOINTS]\nrevolute p : base (0,0,0)+(0,0,1) arm (0,0,0)+(0,0,1) actuated\n"
+      "revolute q : arm (2,0,0)+(0,0,1) hand (0,0,0)+(0,0,1)\n"
+      "uni_prs_uni leg : arm (0,1,0)+(1,2,3) hand (1,0,1)+(2,1,1) range [1/2, 5]\n");
+  EXPECT_EQ(a.mobility_by_joints, 1);
+  EXPECT_EQ(a.mobility, 1);
+}
+
 }  // namespace
 }  // namespace corank::kinematics

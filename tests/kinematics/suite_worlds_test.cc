@@ -115,6 +115,7 @@ int mobility(const Robot& robot) {
       case JointKind::prismatic: result -= 5; break;
       case JointKind::cylindrical:
       case JointKind::universal: result -= 4; break;
+      case JointKind::slot: result -= 2; break;
       case JointKind::spherical:
       case JointKind::planar: result -= 3; break;
       case JointKind::fixed: result -= 6; break;

@@ -119,11 +119,12 @@ class Planted {
     std::mt19937 random(seed);
     std::vector<JointKind> kinds;
     for (int left = 6, balls = 0; left > 0;) {
-      static constexpr std::pair<JointKind, int> kFreedoms[] = {{JointKind::revolute, 1},    {JointKind::revolute, 1},
-                                                                {JointKind::prismatic, 1},   {JointKind::universal, 2},
-                                                                {JointKind::cylindrical, 2}, {JointKind::spherical, 3}};
-      const auto [kind, freedom] = kFreedoms[random() % 6];
-      if (freedom > left || (kind == JointKind::spherical && balls++ > 0)) continue;  // two balls leave a turn between them
+      static constexpr std::pair<JointKind, int> kFreedoms[] = {
+          {JointKind::revolute, 1},    {JointKind::revolute, 1},  {JointKind::prismatic, 1}, {JointKind::universal, 2},
+          {JointKind::cylindrical, 2}, {JointKind::spherical, 3}, {JointKind::slot, 4}};
+      const auto [kind, freedom] = kFreedoms[random() % 7];
+      const bool is_ball = kind == JointKind::spherical || kind == JointKind::slot;
+      if (freedom > left || (is_ball && balls++ > 0)) continue;  // two balls leave a turn between them
       // A sliding joint that would have to be made a cylindrical one has a freedom more.
       if (kind == JointKind::prismatic && left == 1) continue;
       kinds.push_back(kind);
@@ -193,13 +194,13 @@ class Planted {
   }
   JointKind any_kind(bool flat) {
     using enum JointKind;
-    static constexpr JointKind kFlat[] = {revolute,  revolute, revolute, revolute,          prismatic,
-                                          prismatic, fixed,    distance, distance_variable, parallelogram};
-    static constexpr JointKind kInSpace[] = {revolute,  revolute,          revolute,      prismatic,    cylindrical,
-                                             universal, spherical,         spherical,     planar,       fixed,
-                                             distance,  distance,          revolute,      revolute,     prismatic,
-                                             fixed,     distance_variable, parallelogram, universal_rod};
-    return flat ? kFlat[number(0, 9)] : kInSpace[number(0, 18)];
+    static constexpr JointKind kFlat[] = {revolute, revolute, revolute,          revolute,      prismatic, prismatic,
+                                          fixed,    distance, distance_variable, parallelogram, slot};
+    static constexpr JointKind kInSpace[] = {revolute,  revolute,          revolute,      prismatic,     cylindrical,
+                                             universal, spherical,         spherical,     planar,        fixed,
+                                             distance,  distance,          revolute,      revolute,      prismatic,
+                                             fixed,     distance_variable, parallelogram, universal_rod, slot};
+    return flat ? kFlat[number(0, 10)] : kInSpace[number(0, 19)];
   }
   /// A joint of this kind between two links where they are, or of one that does not keep their frames parallel where they
   /// are not.
@@ -222,6 +223,11 @@ class Planted {
         break;
       case JointKind::prismatic:
         j.ends = {end(from, at, across, {}), end(to, at + way * across, across, {})};
+        j.ranges = {kinematics::Range{(way - 8).exact(), (way + 8).exact()}};
+        j.actuated = sometimes();
+        break;
+      case JointKind::slot:
+        j.ends = {end(from, at, across, {}), end(to, at + way * across, {}, {})};
         j.ranges = {kinematics::Range{(way - 8).exact(), (way + 8).exact()}};
         j.actuated = sometimes();
         break;
@@ -360,7 +366,8 @@ class Planted {
         break;
       }
       case JointKind::prismatic:
-        j.ends = {end(from, at, axis, {}), end(to, at + way * axis, axis, {})};
+      case JointKind::slot:
+        j.ends = {end(from, at, axis, {}), end(to, at + way * axis, j.kind == JointKind::slot ? Point{} : axis, {})};
         coordinates[j.name] = way.value();
         j.ranges = {kinematics::Range{(way - 20).exact(), (way + 20).exact()}};
         j.actuated = dressed && number(0, 3) == 0;

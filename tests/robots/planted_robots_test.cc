@@ -17,8 +17,8 @@ using test::NumericMechanism;
 using test::Planted;
 using test::VectorXd;
 
-const std::array<JointKind, 5> kKinds{JointKind::revolute, JointKind::prismatic, JointKind::universal, JointKind::spherical,
-                                      JointKind::cylindrical};
+const std::array<JointKind, 6> kKinds{JointKind::revolute,  JointKind::prismatic,   JointKind::universal,
+                                      JointKind::spherical, JointKind::cylindrical, JointKind::slot};
 
 TEST(PlantedRobots, SatisfyTheirEquationsWhereTheyWerePlanted) {
   const unsigned seeds = test::seeds(5);

@@ -63,6 +63,7 @@ double open_by(const kinematics::Robot& robot, const Assembly& assembly, const V
         break;
       case JointKind::universal: ask(std::max(way.norm(), std::fabs(a[0].dot(a[1])))); break;
       case JointKind::spherical: ask(way.norm()); break;
+      case JointKind::slot: ask(way.cross(a[0]).norm()); break;
       case JointKind::distance: ask(way.norm() - symbolic::evaluate(j.length, values)); break;
       default: ADD_FAILURE() << "an unknown joint";
     }

@@ -107,6 +107,7 @@ double misfit(const Joint& joint, const std::vector<NumericPose>& poses) {
     case JointKind::universal:
       return gap.norm() + std::fabs(direction(0, joint.ends[0].axis).dot(direction(1, joint.ends[1].axis)));
     case JointKind::spherical: return gap.norm();
+    case JointKind::slot: return off_axis() + outside(gap.dot(direction(0, joint.ends[0].axis)), range());
     case JointKind::planar: return same_axes() + std::fabs(gap.dot(direction(0, joint.ends[0].axis)));
     case JointKind::parallelogram:
       return (r0 - r1).norm() + std::fabs(gap.norm() - symbolic::evaluate(joint.length, {})) +

@@ -49,6 +49,8 @@ double joint_rate(const test::NumericMechanism& numeric, const kinematics::Assem
 void expect_same_motions(const kinematics::Assembly& assembly) {
   const test::NumericMechanism numeric(assembly.mechanism);
   const symbolic::ExpressionMatrix l = symbolic::derive(assembly.mechanism).velocity.matrix;
+  const auto is_input = [](const symbolic::Rate& rate) { return rate.role == symbolic::Role::input; };
+  EXPECT_EQ(std::ranges::count_if(assembly.mechanism.rates(), is_input), std::ssize(assembly.mechanism.inputs()));
   std::mt19937 random(1);
   int found = 0, compared = 0;
   for (int k = 0; k < kConfigurations; ++k) {
@@ -128,6 +130,26 @@ INSTANTIATE_TEST_SUITE_P(Models, Twists, testing::ValuesIn(models()), [](const a
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
 });
+
+// A platform on three tubes that turn, each with one of its balls: 3-RPS, whose lengths are driven, or whose tubes are.
+TEST(Twists, OfBallsInTubesHaveTheMotionsOfTheEquations) {
+  for (const bool lengths : {true, false}) {
+    std::string links = "[LINKS]\nbase\ntop\n", joints = "[JOINTS]\n";
+    const char* const places[] = {"2, 0", "-1, 3/2", "-1, -2"};
+    const char* const axes[] = {"0, 1", "3, 2", "2, -1"};
+    for (int i = 0; i < 3; ++i) {
+      const std::string n = std::to_string(i), at = std::string("(") + places[i] + ", 0)";
+      links += "tube" + n + "\n";
+      joints += "revolute q" + n + " : base " + at + "+(" + axes[i] + ", 0) tube" + n + " (0,0,0)+(0,1,0)" +
+                (lengths ? "" : " actuated") + "\nslot s" + n + " : tube" + n + " (0,0,0)+(0,0,1) top " + at +
+                " range [1, 5]" + (lengths ? " actuated" : "") + "\n";
+    }
+    const kinematics::Assembly assembly = kinematics::assemble(
+        kinematics::parse_parts(links + joints + "[OUTPUTS]\nhand : position of top (0,0,1/3)\n", "tubes.cuik"));
+    EXPECT_EQ(assembly.mobility, 3);
+    expect_same_motions(assembly);
+  }
+}
 
 }  // namespace
 }  // namespace corank
