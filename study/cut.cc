@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "corank/result/files/hdf5_file.h"
 #include "corank/result/files/verification.h"
 #include "corank/result/values/sentences.h"
 #include "corank/solve/search/box_labels.h"
@@ -14,11 +15,16 @@
 namespace corank::study {
 namespace {
 
-// Of a result without parts, or a part.
+// Of a result without parts, or a part. Where the run has ended before the cutting begins, the sheets stay whole: the
+// reduction is not the cover's then.
 void cut_one(const symbolic::Mechanism& model, const solve::Options& options, solve::Control& control,
              result::Result& result) {
   const System system = result::system_of(model, result);
   const solve::Prepared prepared = solve::prepare(system, options, control);
+  if (control.ended()) {
+    result.stopped = to_string(*control.ending());
+    return;
+  }
   const auto blocks = result::blocks_of(result);
   const std::size_t left_out = result.cover.types.left_out;
   Cover& cover = result.cover;
@@ -31,6 +37,7 @@ void cut_one(const symbolic::Mechanism& model, const solve::Options& options, so
   solve::prove_passages(prepared, cover, control);
   label(symbolic::singularity_set_from_string(result.set), blocks, prepared, cover, control);
   cover.types.left_out += left_out;
+  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.options.sigma = cover.sigma;
   result::describe_in_words(model, system, result);
 }
