@@ -164,29 +164,6 @@ TEST(Refine, CutsTheSheetsOfAnyResult) {
   EXPECT_EQ(run_corank({"solve", "--refine", whole, "--sigma", "0.2", "--proof", "-o", fine}).status, 2);
 }
 
-// Also where the limit is over while the equations are still reduced, and where a set has parts.
-TEST(Refine, EndsWithItsLimitAndSaysSo) {
-  const TemporaryFolder folder;
-  const std::string whole = folder.file("whole.h5"), cut = folder.file("cut.h5");
-  const Words plane{"solve", model("dextar"), "--set", "cspace"};
-  const Words arm{"solve", model("serial/puma_560"), "--set", "inverse", "-D", "lo3=-1", "-D", "up3=0"};
-  for (const Words& question : {plane, arm}) {
-    SCOPED_TRACE(question[1]);
-    ASSERT_EQ(run_corank(with(question, {"-o", whole})).status, 0);
-    const result::Result sheets = result::read_result(whole);
-    for (const std::string limit : {"1e-6", "0.05"}) {
-      SCOPED_TRACE(limit);
-      const Outcome ended =
-          run_corank({"solve", "--refine", whole, "--sigma", "0.003", "--time-limit", limit, "-o", cut, "--json"});
-      ASSERT_EQ(ended.status, 3) << ended.err;
-      EXPECT_THAT(ended.err, HasSubstr("stopped by the time limit, in the stage"));
-      EXPECT_THAT(nlohmann::json::parse(ended.out)["stopped"], HasSubstr("the time limit"));
-      EXPECT_GE(result::read_result(cut).cover.boxes.size(), sheets.cover.boxes.size() / 2);
-      EXPECT_EQ(run_corank({"verify", cut}).status, 4);
-    }
-  }
-}
-
 TEST(Refine, IsRefusedWhereSigmaSteersTheSearch) {
   const TemporaryFolder folder;
   const std::string coarse = folder.file("coarse.h5");
