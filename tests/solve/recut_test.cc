@@ -83,6 +83,22 @@ TEST(Recut, TakesTheDefaultOfSigmaFromTheSet) {
   EXPECT_EQ(solve(system, {.sigma = 0.1, .surfaces_whole = true}).sigma.length, 0.1) << "an own sigma is kept";
 }
 
+// s = x₁ + … + x_n: the sheet is one box.
+TEST(Recut, OfManyDimensionsMakesAsManyBoxesAsOfThree) {
+  const auto boxes = [](int dimension) {
+    SystemBuilder builder;
+    std::vector<SystemBuilder::Term> sum;
+    for (int k = 0; k < dimension; ++k) sum.push_back({"1", {{builder.variable("x" + std::to_string(k), "-1", "1"), 1}}});
+    sum.push_back({"-1", {{builder.variable("s", "-9", "9"), 1}}});
+    builder.equation(sum);
+    const System system = builder.system();
+    return cut_to(system, solve(system, {.surfaces_whole = true}), {}).boxes.size();
+  };
+  const std::size_t of_three = boxes(3);
+  EXPECT_GT(of_three, 1000u);
+  EXPECT_LT(boxes(4), 3 * of_three);
+}
+
 TEST(Recut, OfACurveThatIsCutAlreadyMakesNarrowerBoxes) {
   const System system = lemniscate();
   EXPECT_FALSE(cut_to(system, solve(system, {.proof = true}), {.sigma = 0.01, .proof = true}).proof);
