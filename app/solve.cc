@@ -199,6 +199,7 @@ ExitStatus refine(const CLI::App& sub, const SolveCommand& command) {
   ProgressLine line;
   line.follow(control);
   const result::Result& result = kept(study::cut(result::read_result(command.refine_path), options, control));
+  const solve::InStage stage(control, solve::Stage::writing);
   write_file(command.result_path, result, control);
   line.clear();
   return say(command, result, std::nullopt, "", 0);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "corank/result/files/hdf5_file.h"
 #include "corank/result/files/verification.h"
 #include "corank/result/values/sentences.h"
 #include "corank/solve/search/box_labels.h"
@@ -14,11 +15,20 @@
 namespace corank::study {
 namespace {
 
+// Has the run ended? Then the sheets stay as they are, and the result says so.
+bool left_whole(const solve::Control& control, result::Result& result) {
+  if (!control.ended()) return false;
+  result.stopped = to_string(*control.ending());
+  return true;
+}
+
 // Of a result without parts, or a part.
 void cut_one(const symbolic::Mechanism& model, const solve::Options& options, solve::Control& control,
              result::Result& result) {
+  if (left_whole(control, result)) return;
   const System system = result::system_of(model, result);
   const solve::Prepared prepared = solve::prepare(system, options, control);
+  if (left_whole(control, result)) return;  // the reduction was perhaps given up, and is not the cover's
   const auto blocks = result::blocks_of(result);
   const std::size_t left_out = result.cover.types.left_out;
   Cover& cover = result.cover;
@@ -31,6 +41,7 @@ void cut_one(const symbolic::Mechanism& model, const solve::Options& options, so
   solve::prove_passages(prepared, cover, control);
   label(symbolic::singularity_set_from_string(result.set), blocks, prepared, cover, control);
   cover.types.left_out += left_out;
+  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.options.sigma = cover.sigma;
   result::describe_in_words(model, system, result);
 }
@@ -49,6 +60,7 @@ result::Result cut(result::Result result, const solve::Options& options, solve::
   if (result.options.tolerance > 0)
     throw result::ResultFileError(
         "the search itself depends on sigma here, since coefficients have a tolerance; expected a new search");
+  const solve::InStage stage(control, solve::Stage::search);  // of all parts: what is cut was found before
   const symbolic::Mechanism model = result::model_of(result);
   result.search.clear();
   if (result.parts.empty()) {

@@ -11,8 +11,10 @@ namespace corank::study {
 bool is_whole(const result::Result& result);
 
 /// The same set in boxes no wider than the options' σ, by default a share of the set's size (solve::recut), with their
-/// labels. A proof of completeness stays behind. Throws result::ResultFileError where the equations' coefficients carry a
-/// tolerance, so that the search itself depends on σ, or where another version of corank has made the result.
+/// labels. A proof of completeness stays behind. Where the control ends the run, Result::stopped says so: what is not cut
+/// by then is `pending`, but a set, or a part of it, of which nothing was cut stays whole. Throws result::ResultFileError
+/// where the equations' coefficients carry a tolerance, so that the search itself depends on σ, or where another version of
+/// corank has made the result.
 result::Result cut(result::Result result, const solve::Options& options, solve::Control& control);
 
 }  // namespace corank::study

@@ -7,9 +7,13 @@ import importlib.util
 from typing import Any
 
 
+_VERSIONS = {"numpy": "'numpy<2'"}  # as the wheel asks for: the extension module speaks to NumPy 1
+
+
 def _missing(package: str) -> ModuleNotFoundError:
+    wanted = _VERSIONS.get(package, package)
     return ModuleNotFoundError(
-        f"this needs the Python package {package}: apt-get install python3-{package}, or pip install {package}", name=package
+        f"this needs the Python package {package}: apt-get install python3-{package}, or pip install {wanted}", name=package
     )
 
 

@@ -22,7 +22,7 @@ import zipfile
 from typing import Iterable, List
 
 import bundling
-from origins import Package, compiled_in, output, packages_of, write_licences
+from origins import Package, compiled_in, git, output, packages_of, write_licences
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PLATFORM = "manylinux_{}_{}_x86_64".format(*bundling.GLIBC)
@@ -47,7 +47,7 @@ class Release:
         if "CMAKE_BUILD_TYPE:STRING=Release\n" not in cache:
             raise SystemExit(f"{build} is no release build")
         self.version = re.search(r"^CMAKE_PROJECT_VERSION:STATIC=(.*)$", cache, re.MULTILINE)[1]
-        self.seconds = int(output("git", "-C", ROOT, "log", "-1", "--format=%ct"))  # since 1970: of all files
+        self.seconds = int(git(ROOT, "log", "-1", "--format=%ct"))  # since 1970: of all files
         self.compiled = compiled_in(build)
 
     def install(self, component: str, prefix: pathlib.Path) -> None:

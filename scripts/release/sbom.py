@@ -15,7 +15,7 @@ from typing import Any, Dict, List
 from urllib.parse import quote
 
 from artefacts import ROOT, Release
-from origins import Package, licence_names, output
+from origins import Package, git, licence_names
 
 UNKNOWN = "NOASSERTION"
 
@@ -81,7 +81,7 @@ def artefact(file: pathlib.Path, version: str, commit: str) -> Dict[str, Any]:
 
 
 def bill(release: Release) -> Dict[str, Any]:
-    commit = output("git", "-C", ROOT, "describe", "--always", "--dirty", "--abbrev=40").strip()
+    commit = git(ROOT, "describe", "--always", "--dirty", "--abbrev=40")
     packages: List[Dict[str, Any]] = []
     relations: List[Dict[str, str]] = []
     known: Dict[str, Dict[str, Any]] = {}

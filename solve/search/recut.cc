@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "corank/certify/domain.h"
 #include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/store/journal.h"
@@ -39,6 +40,7 @@ class StateOfCover {
       Box sides = lowered(box.box);
       if (sheet.proven) {
         sides.resize(reduction_.kept.size());
+        certify::clip_to_domain(reduction_.system, sides);  // as a search's boxes are; sheets reach beyond
         shard.sheets.push_back({std::move(sides), std::move(sheet)});
       } else {
         for (int& j : box.free) j = place_of(j);

@@ -14,7 +14,7 @@ double share_of_size(int dimension, double tolerance) {
     case 0: return std::clamp(std::sqrt(tolerance), 1e-6, kCoarse);
     case 1: return 1.0 / 200;
     case 2: return 1.0 / 60;
-    default: return kCoarse;
+    default: return std::pow(kCoarse, 3.0 / dimension);  // boxes are as many as those of three dimensions
   }
 }
 

@@ -1,0 +1,46 @@
+// What the cutting of a result's sheets says of its own end.
+#include "corank/study/cut.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "corank/study/answer.h"
+#include "corank/study/model.h"
+
+namespace corank::study {
+namespace {
+
+result::Result whole_sheets() {
+  return answer({.model = read_model(CORANK_SOURCE_DIR "/models/planar/3prr.cuik").mechanism,
+                 .set = symbolic::SingularitySet::inverse},
+                {.search = {.surfaces_whole = true}});
+}
+
+TEST(Cut, ThatHasEndedBeforeItBeginsLeavesTheSheetsAsTheyAre) {
+  const result::Result whole = whole_sheets();
+  ASSERT_EQ(whole.parts.size(), 3u);
+  for (const int looks : {1, 2, 4}) {
+    int look = 0;
+    solve::Control control({.time = 1, .clock = [&] { return look++ < looks ? 0.0 : 2.0; }});
+    const result::Result cut = study::cut(whole, {.sigma = 0.1}, control);
+    EXPECT_THAT(cut.stopped, testing::StartsWith("the time limit"));
+    EXPECT_EQ(cut.cover.boxes.size(), whole.cover.boxes.size());
+    EXPECT_TRUE(cut.cover.complete());
+  }
+}
+
+// A program that has found nothing by the limit ends without a result; here all was found before.
+TEST(Cut, IsTheStageOfTheSearchInAllParts) {
+  std::set<solve::Stage> stages;
+  solve::Control control;
+  control.progress = [&](const solve::Control::Progress& p) { stages.insert(p.stage); };
+  const result::Result whole = whole_sheets(), cut = study::cut(whole, {.sigma = 0.5}, control);
+  EXPECT_GT(cut.cover.boxes.size(), whole.cover.boxes.size());
+  EXPECT_EQ(stages, std::set{solve::Stage::search});
+  EXPECT_EQ(cut.stopped, "");
+}
+
+}  // namespace
+}  // namespace corank::study
