@@ -135,6 +135,18 @@ Json motions(const SetView& view) {
   return list;
 }
 
+// The variables that no part's boxes have sides for.
+Json variables_left_out(const result::Result& result) {
+  Json list = Json::array();
+  for (int v = 0; v < result.configuration_size && !result.parts.empty(); ++v)
+    if (std::ranges::none_of(result.parts, [&](const result::Result& part) {
+          return std::ranges::find(part.variables, result.variables[v].name, &result::ResultVariable::name) !=
+                 part.variables.end();
+        }))
+      list.push_back(v);
+  return list;
+}
+
 }  // namespace
 
 Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
@@ -144,6 +156,11 @@ Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& de
   set.update({{"variables", each(result.variables, [](const auto& v) { return v.name; })},
               {"domains", each(result.variables, [](const auto& v) { return bounds(v.domain); })},
               {"configuration", result.configuration_size},
+              {"angles", each(result.angles,
+                              [](const Angle& a) {
+                                return Json{a.cosine, a.sine};
+                              })},
+              {"leftOut", variables_left_out(result)},
               {"columns", columns},
               {"scales", kernel_scales(result, columns.size())},
               {"equations", polynomials(view.system.equations)},

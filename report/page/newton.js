@@ -101,8 +101,29 @@ export function pointOfBoxes(set, boxes, conditions) {
   return {box: boxes[0], ...pointOfBox(set, boxes[0])};
 }
 
+// Of what the box leaves open, any angles, and what the equations then give.
 function middleOf(set, box) {
-  return Float64Array.from({length: set.size}, (_, j) => set.middle(box, j));
+  const x = Float64Array.from({length: set.size}, (_, j) => set.middle(box, j));
+  const open = new Set(set.leftOut);
+  for (const [cosine, sine] of set.angles ?? []) {
+    open.delete(cosine);
+    open.delete(sine);
+    if (Math.hypot(x[cosine], x[sine]) < 0.1) [x[cosine], x[sine]] = [1, 0];
+  }
+  const gradient = new Float64Array(set.size);
+  for (const equation of open.size > 0 ? set.equations : []) {
+    const own = equation.find((monomial) => monomial.length === 4 && open.has(monomial[1]) && isLinear(equation, monomial));
+    if (!own) continue;
+    x[own[1]] -= evaluatePolynomial(equation, x, gradient) / own[0];
+    open.delete(own[1]);
+  }
+  return x;
+}
+
+// Is it the only monomial with its variable, which is no angle?
+function isLinear(equation, [, variable, power, kind]) {
+  const mentions = (monomial) => monomial.some((v, k) => k % 3 === 1 && v === variable);
+  return power === 1 && kind === 0 && equation.filter(mentions).length === 1;
 }
 
 function solvedFrom(set, box, equations) {
