@@ -16,18 +16,39 @@ void show(const FiguresRun& run, const std::string& figure) {
   if (run.show) run.show("figures: " + figure);
 }
 
+// Have all boxes of all sources the same wide side? Sets that leave a coordinate out have, and their picture says nothing.
+bool is_same_everywhere(const std::vector<PictureSource>& sources, const std::string& name) {
+  std::vector<const Interval*> first;
+  for (const PictureSource& source : sources) {
+    const auto angle = std::ranges::find(source.angles, name, &Angle::name);
+    std::vector<int> own{source.boxes.find(name)};
+    if (angle != source.angles.end()) own = {angle->cosine, angle->sine};
+    if (own[0] < 0) return false;
+    for (std::size_t k = 0; k < source.count(); ++k)
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        const Interval& side = source.box(k)[own[i]];
+        if (first.size() <= i) first.push_back(&side);
+        if (side.width() == 0 || side.lo() != first[i]->lo() || side.hi() != first[i]->hi()) return false;
+      }
+  }
+  return true;
+}
+
 }  // namespace
 
-std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first) {
-  std::vector<std::string> axes;
+std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first,
+                                       const std::function<bool(const std::string&)>& late) {
+  std::vector<std::string> axes, others;
   const auto add = [&](const std::string& name) {
     const symbolic::Coordinate& c = mechanism.coordinates()[mechanism.find_coordinate(name)];
     const bool known = std::ranges::find(axes, name) != axes.end();
-    if (!known && axes.size() < 2 && !is_fixed(c)) axes.push_back(name);
+    if (!known && axes.size() < 2 && !is_fixed(c)) (late && late(name) ? others : axes).push_back(name);
   };
   for (const auto* names : {&first, &mechanism.outputs(), &mechanism.inputs()})
     std::for_each(names->begin(), names->end(), add);
   for (const symbolic::Coordinate& c : mechanism.coordinates()) add(c.name);
+  for (const std::string& name : others)
+    if (axes.size() < 2 && std::ranges::find(axes, name) == axes.end()) axes.push_back(name);
   return axes;
 }
 
@@ -39,7 +60,8 @@ Figures write_figures(const std::filesystem::path& folder, const symbolic::Mecha
   for (const auto& [name, first] :
        {std::pair{"output-portrait", &mechanism.outputs()}, std::pair{"input-portrait", &mechanism.inputs()}}) {
     PictureOptions options;
-    options.axes = portrait_axes(mechanism, *first);
+    options.axes =
+        portrait_axes(mechanism, *first, [&](const std::string& axis) { return is_same_everywhere(sources, axis); });
     if (options.axes.size() < 2 || sources.empty()) continue;
     figures.stopped = figures.stopped || run.stopped();
     if (figures.stopped) continue;

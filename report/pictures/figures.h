@@ -12,9 +12,10 @@
 
 namespace corank::report {
 
-/// The two coordinates of a portrait: the first inputs or outputs, those of one value aside; then other coordinates. Fewer
-/// where the mechanism has no two.
-std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first);
+/// The two coordinates of a portrait: the first inputs or outputs, those of one value aside; then other coordinates; then
+/// those that are `late`. Fewer where the mechanism has no two.
+std::vector<std::string> portrait_axes(const symbolic::Mechanism& mechanism, const std::vector<std::string>& first,
+                                       const std::function<bool(const std::string&)>& late = {});
 
 /// The files, "figures/NAME", below the folder of their page; `stopped`: an interrupt has left some out.
 struct Figures {
