@@ -21,6 +21,7 @@ std::vector<int> places(const Result& whole, const Result& part) {
 // Its configuration alone: what is proven of it stays with the part. What that leaves out may be all that it can.
 CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part) {
   CoverBox result;
+  result.box.reserve(places.size());
   for (std::size_t v = 0; v < places.size(); ++v) {
     const int own = places[v];
     result.box.push_back(own < 0 ? whole.variables[v].domain : box.box[own]);

@@ -47,40 +47,35 @@ class ExactMatrix::Unknowns {
   }
 
   /// When all are collected.
-  void close() { ring_.emplace(atoms_.size()); }
+  void close() {
+    ring_.emplace(atoms_.size());
+    // Of the coordinates that are angles, then of constant ones.
+    GiNaC::exvector angles = angles_;
+    for (const GiNaC::ex& atom : atoms_)
+      if (GiNaC::is_a<GiNaC::function>(atom) &&
+          std::ranges::none_of(angles, [&](const GiNaC::ex& e) { return e.is_equal(atom.op(0)); }))
+        angles.push_back(atom.op(0));
+    for (const GiNaC::ex& angle : angles) {
+      const auto c = index_.find(GiNaC::cos(angle)), s = index_.find(GiNaC::sin(angle));
+      if (c != index_.end() && s != index_.end()) circles_.push_back({c->second, s->second});
+    }
+    for (std::size_t k = 0; k < atoms_.size(); ++k) {
+      const GiNaC::ex& atom = atoms_[k];
+      if (const auto constant = squares_.find(atom); constant != squares_.end())
+        square_roots_.emplace_back(k, RationalPolynomial::number(*ring_, constant->second));
+      if (GiNaC::is_a<GiNaC::power>(atom) && atom.op(1).is_equal(GiNaC::numeric(1, 2)) &&
+          atom.op(0).info(GiNaC::info_flags::rational))
+        square_roots_.emplace_back(k, polynomial(atom.op(0)));
+    }
+  }
   const PolynomialRing& ring() const { return *ring_; }
 
   struct Circle {
     std::size_t cosine, sine;
   };
-  // Of the coordinates that are angles, then of constant ones.
-  std::vector<Circle> circles() const {
-    std::vector<Circle> result;
-    GiNaC::exvector angles = angles_;
-    for (const GiNaC::ex& atom : atoms_)
-      if (GiNaC::is_a<GiNaC::function>(atom) &&
-          std::ranges::find_if(angles, [&](const GiNaC::ex& e) { return e.is_equal(atom.op(0)); }) == angles.end())
-        angles.push_back(atom.op(0));
-    for (const GiNaC::ex& angle : angles) {
-      const auto c = index_.find(GiNaC::cos(angle)), s = index_.find(GiNaC::sin(angle));
-      if (c != index_.end() && s != index_.end()) result.push_back({c->second, s->second});
-    }
-    return result;
-  }
-
+  const std::vector<Circle>& circles() const { return circles_; }
   // √3 and constants such as √3/2, with 3 and 3/4.
-  std::vector<std::pair<std::size_t, RationalPolynomial>> square_roots() const {
-    std::vector<std::pair<std::size_t, RationalPolynomial>> result;
-    for (std::size_t k = 0; k < atoms_.size(); ++k) {
-      const GiNaC::ex& atom = atoms_[k];
-      const auto constant = squares_.find(atom);
-      if (constant != squares_.end()) result.emplace_back(k, RationalPolynomial::number(*ring_, constant->second));
-      if (GiNaC::is_a<GiNaC::power>(atom) && atom.op(1).is_equal(GiNaC::numeric(1, 2)) &&
-          atom.op(0).info(GiNaC::info_flags::rational))
-        result.emplace_back(k, polynomial(atom.op(0)));
-    }
-    return result;
-  }
+  const std::vector<std::pair<std::size_t, RationalPolynomial>>& square_roots() const { return square_roots_; }
 
   RationalPolynomial polynomial(const GiNaC::ex& e) const {
     if (const auto atom = index_.find(e); atom != index_.end()) return RationalPolynomial::unknown(*ring_, atom->second);
@@ -135,6 +130,8 @@ class ExactMatrix::Unknowns {
   std::optional<PolynomialRing> ring_;
   std::map<GiNaC::ex, std::size_t, GiNaC::ex_is_less> index_;
   std::vector<GiNaC::ex> atoms_;
+  std::vector<Circle> circles_;
+  std::vector<std::pair<std::size_t, RationalPolynomial>> square_roots_;
 };
 
 ExactMatrix::ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi)
