@@ -40,7 +40,11 @@ std::optional<SumOfSquares> sum_of_squares(const Polynomial& f) {
 class Implication {
  public:
   explicit Implication(const System& system) : system_(system) {
-    for (const Variable& v : system.variables) sides_.push_back({v.lower_implied, v.upper_implied});
+    for (const Variable& v : system.variables) {
+      const bool within_one = v.within_one && system.coefficient_tolerance == 0;
+      sides_.push_back({v.lower_implied || (within_one && at_least(-1, v.lower)),
+                        v.upper_implied || (within_one && at_least(v.upper, 1))});
+    }
     for (const Polynomial& f : system.equations) {
       const bool rational = std::ranges::all_of(
           f.monomials, [](const Monomial& m) { return m.coefficient.is_rational() && !carries_tolerance(m); });

@@ -21,7 +21,8 @@ struct ImpliedSides {
 /// of an arm in a closed chain. Lemma (products; Cauchy–Schwarz): if a x_j = Σ b_k y_k z_k + b_0, distinct y_k with Σ e_i
 /// y_i² ≤ Y, e_i > 0, and distinct z_k with Σ f_i z_i² ≤ Z, then |a x_j| ≤ max |b_k| √(Y Z/(min e min f)) + |b_0|: a
 /// component of a cross product of unit vectors is at most 1. Sides that the system knows as implied
-/// (Variable::lower_implied, upper_implied) are among the answers.
+/// (Variable::lower_implied, upper_implied) are among the answers, and those at or beyond ±1 of a variable that it knows to
+/// be in [-1, 1] (Variable::within_one).
 std::vector<ImpliedSides> implied_domains(const System& system);
 
 }  // namespace corank::certify

@@ -54,6 +54,7 @@ System system_of(const System& system, const EquationGroup& group) {
   for (const int v : group.variables) {
     place[v] = part.size();
     part.variables.push_back(system.variables[v]);
+    part.variables.back().within_one = false;  // by equations of other groups, too
     if (v < system.configuration_size) ++part.configuration_size;
   }
   const auto add = [&](const Polynomial& f, std::vector<Polynomial>& to) {

@@ -31,7 +31,10 @@ Implied::Implied(const System& system, const std::vector<Terms>& equations) {
   }
   add_shorter_sums();
   for (const Variable& v : system.variables) {
-    domains_.push_back({{v.lower, v.upper}, {v.lower.is_rational(), v.upper.is_rational()}, {}});
+    const bool within_one = v.within_one && system.coefficient_tolerance == 0;
+    domains_.push_back({{v.lower, v.upper},
+                        {v.lower.is_rational(), v.upper.is_rational()},
+                        {within_one && not_less(-1, v.lower), within_one && not_less(v.upper, 1)}});
   }
   index(system.variables.size());
   spread();

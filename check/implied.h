@@ -13,7 +13,8 @@ namespace corank::check {
 /// implies (|a y| − |b₀|)² ≤ max bₖ² · U V/(min e · min f) where |a y| ≥ |b₀|.
 /// Lemma (sums): a y = Σ bᵢ tᵢ + b₀, each tᵢ a sine, a cosine or a variable with a bound known for the side in question,
 /// implies the bound of the right side. For bounds of variables the ends of their domains are taken, where these are implied
-/// in turn. The equations are those given, and f − q·g for two that are linear where that has fewer terms than one of them.
+/// in turn, or at or beyond ±1 for a variable that is known to be in [-1, 1] (Variable::within_one). The equations are
+/// those given, and f − q·g for two that are linear where that has fewer terms than one of them.
 class Implied {
  public:
   Implied() = default;

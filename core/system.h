@@ -33,6 +33,9 @@ struct Variable {
   bool lower_implied = false, upper_implied = false;  ///< the equations imply this side of the domain: it is no boundary
   bool auxiliary = false;  ///< of no interest by itself, as in [DUMMY VARS]: a box may be wide in it, whatever σ
   bool direction = false;  ///< a length without a unit: a component of a unit vector or of a rotation
+  /// In [-1, 1] at every real solution of the exact equations, inside the domain or not, by what they were made from
+  /// (symbolic/sets/unit_vectors.h).
+  bool within_one = false;
   /// A typical size of its changes, positive, so that no choice depends on the model's unit of length. Only for heuristics.
   double size = 1;
 

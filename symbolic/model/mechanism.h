@@ -48,8 +48,9 @@ struct Coordinate {
   SourceLocation where;
   bool auxiliary =
       false;  ///< from [DUMMY VARS] or [CARTESIAN VARS]: defined by the others through equations, and of no interest
-  bool has_range = true;   ///< false: a length whose range the equations are to give (limits.h)
-  bool direction = false;  ///< a length without a unit: a component of a Composite
+  bool has_range = true;    ///< false: a length whose range the equations are to give (limits.h)
+  bool direction = false;   ///< a length without a unit: a component of a Composite
+  bool within_one = false;  ///< of a system: shown to be in [-1, 1] at every solution (symbolic/sets/unit_vectors.h)
 
   /// "[0, 2*pi]"
   std::string range_text() const { return "[" + lower.text() + ", " + upper.text() + "]"; }

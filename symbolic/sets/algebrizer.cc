@@ -107,6 +107,7 @@ void Algebrizer::add_length(const Coordinate& coordinate) {
   const int variable = add_variable(coordinate.name, VariableKind::length, range_of(coordinate));
   expander_.add_unknown(coordinate.name, variable);
   out_.variables[variable].direction = coordinate.direction;
+  out_.variables[variable].within_one = coordinate.within_one;
 }
 
 std::string Algebrizer::toleranced_in(const Expression& e) const {

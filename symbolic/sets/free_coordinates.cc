@@ -4,7 +4,6 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <functional>
 #include <map>
-#include <set>
 
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebra/exact_value.h"
@@ -24,30 +23,6 @@ bool has_given(const FreeCoordinates& free, const std::vector<Expression>& funct
   return std::ranges::any_of(functions, [&](const Expression& e) {
     return std::ranges::any_of(free.given, [&](const Relation& r) { return e.mentions(r.lhs.name()); });
   });
-}
-
-// u_link2 of u_link2_x.
-std::string vector_of(const std::string& component) { return component.substr(0, component.rfind('_')); }
-
-// Of the auxiliary given coordinates the vectors, as far as they are given, whose length is 1 at every configuration.
-std::set<std::string> unit_vectors(const Mechanism& mechanism, const std::vector<Relation>& given) {
-  std::map<std::string, std::vector<Expression>> components;
-  for (const Relation& r : given)
-    if (mechanism.coordinates()[mechanism.find_coordinate(r.lhs.name())].auxiliary)
-      components[vector_of(r.lhs.name())].push_back(r.lhs);
-  // The squares' sums less 1, on a diagonal.
-  ExpressionMatrix sums;
-  for (const auto& [name, list] : components) {
-    Expression& sum = sums.rows.emplace_back(components.size(), Expression(0))[sums.columns.size()];
-    sum = Expression(-1);
-    for (const Expression& x : list) sum = sum + pow(x, 2);
-    sums.columns.push_back(name);
-  }
-  const ExactMatrix matrix(mechanism, sums, residuals(mechanism));
-  std::set<std::string> result;
-  for (std::size_t k = 0; k < sums.columns.size(); ++k)
-    if (matrix.in_free_coordinates(matrix.determinant({{k}, {k}})).is_zero()) result.insert(sums.columns[k]);
-  return result;
 }
 
 std::vector<std::string> mentioned(const std::vector<Coordinate>& coordinates, const Expression& e) {
@@ -114,7 +89,6 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
     const Constant& c = *std::ranges::find(mechanism.constants(), e.name(), &Constant::name);
     return c.tolerance ? Interval::hull(exact(c.tolerance->lower), exact(c.tolerance->upper)) : range_of(c.value, known);
   };
-  std::optional<std::set<std::string>> units;
   for (const Relation& r : result.given) {
     const std::string& name = r.lhs.name();
     const int index = mechanism.find_coordinate(name);
@@ -129,10 +103,7 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
           is_constant && !varies(value) ? exact_value(mechanism, value, name).enclose() : range_of(value, known);
       if (range && is_in_range(mechanism, c, *range)) continue;
       if (is_constant) return std::nullopt;
-      if (c.auxiliary && is_in_range(mechanism, c, Interval(-1, 1))) {
-        if (!units) units = unit_vectors(mechanism, result.given);
-        if (units->contains(vector_of(name))) continue;
-      }
+      if (within_limits[index].within_one && is_in_range(mechanism, c, Interval(-1, 1))) continue;
     }
     system.inequalities.push_back({value >= within_limits[index].lower, "lower end of " + name, c.where});
     system.inequalities.push_back({value <= within_limits[index].upper, "upper end of " + name, c.where});

@@ -18,8 +18,8 @@ namespace corank::symbolic {
 
 struct FreeCoordinates {
   /// The free coordinates, without equations. Its inequalities are the model's own, and the ranges of given coordinates
-  /// that are not shown to hold at all values of the free ones: by intervals, or of a link's direction since its
-  /// squares' sum is 1.
+  /// that are not shown to hold at all values of the free ones, by intervals or as components of unit vectors
+  /// (unit_vectors.h).
   TrigonometricSystem system;
   /// In the order of their equations, each by free ones and those before it: x = f.
   std::vector<Relation> given;

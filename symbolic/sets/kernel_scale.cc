@@ -55,7 +55,8 @@ bool are_alike(const TrigonometricSystem& a, const TrigonometricSystem& b) {
   };
   const auto coordinates = [](const Coordinate& x, const Coordinate& y) {
     return x.name == y.name && x.kind == y.kind && same_tree(x.lower, y.lower) && same_tree(x.upper, y.upper) &&
-           x.auxiliary == y.auxiliary && x.has_range == y.has_range && x.direction == y.direction;
+           x.auxiliary == y.auxiliary && x.has_range == y.has_range && x.direction == y.direction &&
+           x.within_one == y.within_one;
   };
   const auto relations = [](const TrigonometricSystem::Equation& x, const TrigonometricSystem::Equation& y) {
     return same_relation(x.relation, y.relation);

@@ -10,6 +10,7 @@
 #include "corank/symbolic/sets/limit_on_a_line.h"
 #include "corank/symbolic/sets/limits.h"
 #include "corank/symbolic/sets/requirements.h"
+#include "corank/symbolic/sets/unit_vectors.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
 
 namespace corank::symbolic {
@@ -293,6 +294,8 @@ TrigonometricSystem plain_system(const Mechanism& mechanism) {
   system.name = mechanism.name();
   system.constants = mechanism.constants();
   system.coordinates = mechanism.coordinates();
+  const std::set<std::string> units = unit_vector_components(mechanism);
+  for (Coordinate& c : system.coordinates) c.within_one = units.contains(c.name);
   keep_limits(mechanism, system.coordinates);
   const auto add = [](std::vector<TrigonometricSystem::Equation>& list, const Constraint& constraint,
                       const std::string& word) {

@@ -49,6 +49,7 @@ TEST(SetPartsOnTheCommandLine, AreProductsWithTheCoordinatesThatTheyLeaveFree) {
   const json result = json::parse(read_text(folder.file("r.json")));
   const std::vector<json> expected{{"theta2", "theta3"}, {"theta2", "theta5"}, {"theta5"}};
   ASSERT_EQ(result["parts"].size(), expected.size());
+  EXPECT_EQ(result["boxes"]["boundary"], 0) << "directions of links have ranges beyond [-1, 1], which are no limits";
   const result::Result read = result::read_result(folder.file("r.h5"));
   for (std::size_t k = 0; k < expected.size(); ++k) {
     EXPECT_EQ(result["parts"][k]["free_coordinates"], expected[k]) << result["parts"][k];

@@ -56,6 +56,20 @@ TEST(ImpliedBySquares, IsNotThatOfCoefficientsWithATolerance) {
   EXPECT_FALSE(implied_domains(system)[0].lower || implied_domains(system)[0].upper);
 }
 
+TEST(ImpliedByTheModel, IsEachEndBeyondOneOfAComponentOfADirection) {
+  SystemBuilder b;
+  b.variable("u", "-11/10", "1"), b.variable("v", "-1", "9/10"), b.variable("w", "-9/10", "2"), b.variable("x", "-2", "2");
+  System system = b.system();
+  for (int j = 0; j < 3; ++j) system.variables[j].within_one = true;
+  const std::vector<ImpliedSides> sides = implied_domains(system);
+  EXPECT_TRUE(sides[0].both());
+  EXPECT_TRUE(sides[1].lower && !sides[1].upper);
+  EXPECT_TRUE(!sides[2].lower && sides[2].upper);
+  EXPECT_FALSE(sides[3].lower || sides[3].upper);
+  system.coefficient_tolerance = 1e-6;  // a direction that others are made of is no unit vector then
+  for (const ImpliedSides& s : implied_domains(system)) EXPECT_FALSE(s.lower || s.upper);
+}
+
 // x = −2c + d with c in [−1, 1] and d in [0, 3], where only what is implied counts.
 class ImpliedBySums : public testing::Test {
  protected:

@@ -55,6 +55,23 @@ TEST(ImpliedBySquares, IsNoBoundOnTheOtherSideOfZero) {
   EXPECT_FALSE(implied({squares("1", kY, "1", kU, "1")}, kY, "2", -1));
 }
 
+TEST(ImpliedByTheModel, IsEachEndBeyondOneOfAComponentOfADirection) {
+  System system = system_of({{{"1", {{kU, 1}}}, {"-1", {{kP, 1}}}}});  // u = p
+  system.variables[kY].within_one = system.variables[kP].within_one = true;
+  system.variables[kP].upper = ExactNumber::rational("9/10");
+  const auto holds = [&](int variable, const char* end, int sign) {
+    std::vector<Terms> terms;
+    for (const Polynomial& f : system.equations) terms.emplace_back(f, system.coefficient_tolerance);
+    return Implied(system, terms).holds(variable, ExactNumber::rational(end), sign);
+  };
+  EXPECT_TRUE(holds(kY, "2", 1) && holds(kY, "-1", -1));
+  EXPECT_FALSE(holds(kP, "9/10", 1)) << "the domain ends before";
+  EXPECT_TRUE(holds(kP, "-1", -1) && holds(kU, "-1", -1));
+  EXPECT_FALSE(holds(kQ, "2", 1));
+  system.coefficient_tolerance = 1e-6;
+  EXPECT_FALSE(holds(kY, "2", 1) || holds(kY, "-1", -1));
+}
+
 TEST(ImpliedBySquares, IsNothingWithinATolerance) {
   EXPECT_TRUE(implied({squares("1", kY, "1", kU, "1/4")}, kY, "1/2", 1));
   EXPECT_FALSE(implied({squares("1", kY, "1", kU, "1/4")}, kY, "1/2", 1, 0.01));

@@ -1,0 +1,16 @@
+// Components of unit vectors among the coordinates that the equations give: of links' directions in an arm. Their ranges,
+// a little wider than [-1, 1], are no ends of its motions.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "corank/symbolic/model/mechanism.h"
+
+namespace corank::symbolic {
+
+/// Of the auxiliary coordinates name_x, name_y, … those whose squares' sum is shown to be 1 at every solution of Φ: less 1
+/// it is the polynomial 0 once what Φ gives explicitly is put in (ExactMatrix::in_free_coordinates).
+std::set<std::string> unit_vector_components(const Mechanism& mechanism);
+
+}  // namespace corank::symbolic
