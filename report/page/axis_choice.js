@@ -1,23 +1,30 @@
 // Which coordinates a page's pictures are over at first.
+import {isAngle} from "./values.js";
 
-// Outputs, inputs, passive coordinates; then those that all sets leave out. Those of one value are no axes.
+// Outputs, inputs, passive coordinates; then those that all sets leave out, or that hardly move beside others of their kind.
+// Those of one value are no axes.
 export function axisOrder(model) {
   const rank = {output: 0, input: 1, passive: 2, auxiliary: 3};
-  const indices = model.coordinates
-    .map((_, i) => i)
-    .filter((i) => model.coordinates[i].range[1] - model.coordinates[i].range[0] > 1e-9);
-  const late = (i) => Number(isLeftOut(model, i));
+  const indices = model.coordinates.map((_, i) => i).filter((i) => widthOf(model.coordinates[i]) > 1e-9);
+  const late = (i) => Number(isLate(model, i));
   return indices.sort(
     (a, b) => late(a) - late(b) || rank[model.coordinates[a].role] - rank[model.coordinates[b].role] || a - b,
   );
 }
 
-function isLeftOut(model, i) {
-  const variable = model.coordinates[i].index ?? model.coordinates[i].cosine;
-  return model.sets.length > 0 && model.sets.every((set) => set.leftOut?.includes(variable));
+function widthOf({range}) {
+  return range[1] - range[0];
+}
+
+function isLate(model, i) {
+  const own = model.coordinates[i],
+    variable = own.index ?? own.cosine;
+  if (model.sets.length > 0 && model.sets.every((set) => set.leftOut?.includes(variable))) return true;
+  const alike = model.coordinates.filter((other) => isAngle(other) === isAngle(own) && other.role === own.role);
+  return widthOf(own) < 1e-2 * Math.max(...alike.map(widthOf));
 }
 
 export function firstOf(order, model, role) {
-  const own = order.filter((i) => model.coordinates[i].role === role && !isLeftOut(model, i));
+  const own = order.filter((i) => model.coordinates[i].role === role && !isLate(model, i));
   return [...own, ...order.filter((i) => !own.includes(i))].slice(0, 2);
 }
