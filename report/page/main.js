@@ -83,7 +83,7 @@ function main() {
 
   const first = clearest(model, sampleConfigurations(model, filled((set) => set.locked.includes("input")) || filled(), 100));
   if (first) panel.offer([{set: first.set, box: first.box}]);
-  window.corank = {model, panel, hero, portraits: views, space, axisOrder};
+  window.corank = {model, panel, hero, portraits: views, space};
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 }
 

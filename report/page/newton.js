@@ -50,8 +50,9 @@ function solveSymmetric(a, b, n) {
   }
 }
 
-// From x the nearby point of F = 0, each step the shortest one: dx = −Jᵀ (J Jᵀ + λ)⁻¹ F with a tiny λ, for F may be redundant.
-export function ontoSolutions(equations, start) {
+// From x the nearby point of F = 0, each step the shortest one in units of the variables' scales, 1 where none are given:
+// dx = −W Jᵀ (J W Jᵀ + λ)⁻¹ F, W = diag(scale²), with a tiny λ, for F may be redundant.
+export function ontoSolutions(equations, start, scales = start.map(() => 1)) {
   const n = start.length,
     m = equations.length;
   const x = Float64Array.from(start);
@@ -70,7 +71,7 @@ export function ontoSolutions(equations, start) {
     for (let i = 0; i < m; ++i) {
       for (let j = 0; j <= i; ++j) {
         let sum = 0;
-        for (let k = 0; k < n; ++k) sum += jacobian[i][k] * jacobian[j][k];
+        for (let k = 0; k < n; ++k) sum += jacobian[i][k] * jacobian[j][k] * scales[k] ** 2;
         gram[i * m + j] = sum;
       }
       trace += gram[i * m + i];
@@ -78,7 +79,7 @@ export function ontoSolutions(equations, start) {
     for (let i = 0; i < m; ++i) gram[i * m + i] += 1e-12 * (trace / m + 1e-300);
     solveSymmetric(gram, step, m);
     for (let i = 0; i < m; ++i) {
-      for (let k = 0; k < n; ++k) x[k] -= jacobian[i][k] * step[i];
+      for (let k = 0; k < n; ++k) x[k] -= scales[k] ** 2 * jacobian[i][k] * step[i];
     }
   }
   return {x, residual};
@@ -126,8 +127,15 @@ function isLinear(equation, [, variable, power, kind]) {
   return power === 1 && kind === 0 && equation.filter(mentions).length === 1;
 }
 
+// In units of the box's sides: one that is a single value, by an equation of a part of the set, stays.
 function solvedFrom(set, box, equations) {
-  const {x, residual} = ontoSolutions(equations, middleOf(set, box));
+  const widths = Float64Array.from({length: set.size}, (_, j) => set.upper(box, j) - set.lower(box, j)),
+    least = 1e-4 * Math.max(...widths) || 1;
+  const {x, residual} = ontoSolutions(
+    equations,
+    middleOf(set, box),
+    widths.map((w) => Math.max(w, least)),
+  );
   return residual < 1e-9 && isNear(set, box, x) ? {x, residual, moved: true} : null;
 }
 

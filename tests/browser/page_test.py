@@ -181,16 +181,6 @@ class Dextar(page_case.PageCase):
             "(() => { const s = corank.portraits[1].selects[0]; s.value = 2; s.dispatchEvent(new Event('change')); })()"
         )
 
-    def test_a_coordinate_that_hardly_moves_beside_others_of_its_kind_is_the_last_axis(self):
-        order = """(() => {
-          const coordinates = corank.model.coordinates.map((c) => (c.name === "J3x" ? {...c, range: WIDTH} : c));
-          return corank.axisOrder({...corank.model, coordinates}).map((i) => coordinates[i].name);
-        })()"""
-        self.assertEqual(self.run_js(order.replace("WIDTH", "[1, 2]"))[:2], ["J3x", "J3y"])
-        hardly = self.run_js(order.replace("WIDTH", "[1, 1.001]"))
-        self.assertEqual((hardly[0], hardly[-1]), ("J3y", "J3x"))
-        self.assertNotIn("J3x", self.run_js(order.replace("WIDTH", "[1, 1]")))
-
     def test_theme_switch_redraws_in_dark(self):
         paper = "getComputedStyle(document.body).backgroundColor"
         light = self.run_js(paper)
