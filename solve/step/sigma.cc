@@ -7,14 +7,16 @@
 namespace corank::solve {
 namespace {
 
-double share_of_size(int dimension, double tolerance) {
-  constexpr double kCoarse = 1.0 / 20;
+double share_of_size(int dimension, double tolerance, std::size_t variables) {
+  constexpr double kCoarse = 1.0 / 20, kFew = 20;
+  // Of a surface or a larger set with more sides to a box fewer boxes: what is stored and drawn does not grow with both.
+  const double fewer = dimension > 1 ? std::pow(std::max(1.0, static_cast<double>(variables) / kFew), 1.0 / dimension) : 1;
   if (dimension > 0 && tolerance > 0) return kCoarse;
   switch (dimension) {
     case 0: return std::clamp(std::sqrt(tolerance), 1e-6, kCoarse);
     case 1: return 1.0 / 200;
-    case 2: return 1.0 / 60;
-    default: return std::pow(kCoarse, 3.0 / dimension);  // boxes are as many as those of three dimensions
+    case 2: return fewer / 60;
+    default: return fewer * std::pow(kCoarse, 3.0 / dimension);  // boxes are as many as those of three dimensions
   }
 }
 
@@ -72,8 +74,8 @@ Sigma default_sigma(const System& system, const Box& hull, int dimension) {
     if (kind == SigmaClass::angle) size.angle = std::max(size.angle, width);
   }
   const auto share = [&](double width) {
-    const double sigma =
-        share_of_size(dimension, system.coefficient_tolerance) * (width > 0 && std::isfinite(width) ? width : 1);
+    const double sigma = share_of_size(dimension, system.coefficient_tolerance, hull.size()) *
+                         (width > 0 && std::isfinite(width) ? width : 1);
     return preferred_number(sigma);
   };
   return {share(size.length), share(size.angle)};
