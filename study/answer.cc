@@ -170,7 +170,9 @@ result::Result describe(const Question& question, const System& system, const Op
   result.cover = std::move(cover);
   if (ending) result.stopped = to_string(*ending);
   result::describe_system(system, result);
-  result.free_coordinates = result::free_coordinates(question.model, system, question.assembly.has_value());
+  result.free_coordinates =
+      result::free_coordinates(question.model, system, question.assembly.has_value(),
+                               question.part ? symbolic::joints(*question.part) : std::vector<std::string>());
   result::describe_in_words(question.model, system, result);
   const solve::Options& search = options.search;
   result.options = {kernel_of(question),          result.cover.sigma, system.kernel_scales,
