@@ -14,7 +14,6 @@
 #include "corank/study/answer.h"
 #include "corank/study/cut.h"
 #include "corank/symbolic/sets/set_parts.h"
-#include "corank/symbolic/writing/printer.h"
 
 namespace corank::app {
 namespace {
@@ -77,48 +76,45 @@ std::optional<report::PageAspects> aspects_of(const ReportCommand& command, cons
                               fmt::format("{} s, which --time-limit sets", limits.time_limit), control);
 }
 
-/// What a stranger's result says of its variables has to be so before a picture relies on it.
-report::SetView read_one(const std::string& path) {
-  result::Result result = result::read_result(path, {.free = false});
-  const symbolic::Mechanism mechanism = result::model_of(result);
-  System system = result::system_of(mechanism, result);
-  auto contradictions = result::contradictions(result, system, symbolic::to_cuik(system));
-  for (std::string& c : result::contradictions_of_parts(mechanism, result)) contradictions.push_back(std::move(c));
-  if (!contradictions.empty())
-    throw result::ResultFileError(fmt::format("{}: contradicts the model in it: {}", path, fmt::join(contradictions, "; ")));
+struct ReadView {
+  std::string path;
+  symbolic::Mechanism model;
+  report::SetView view;
+};
+
+ReadView read_one(const std::string& path) {
+  auto [result, model, system] = result::read_to_show(path);
   if (study::is_whole(result)) {
     solve::Control control;
     result = study::cut(result::read_result(path), {.threads = 0}, control);
-  } else {
-    result::describe_in_words(mechanism, system, result);
   }
-  return report::set_view(std::move(result), std::move(system), mechanism.has_own_velocity_equation());
+  const bool given = model.has_own_velocity_equation();
+  return {path, std::move(model), report::set_view(std::move(result), std::move(system), given)};
 }
 
-/// Reads results of one model, and brings them and their paths into the order of the sets' definitions.
-std::vector<report::SetView> read_all(std::vector<std::string>& paths) {
-  std::map<const symbolic::SetDefinition*, std::pair<std::string, report::SetView>> by_set;
+/// Reads results of one model, and brings them and their paths into the order of the sets' definitions. Returns the model,
+/// that of the first.
+symbolic::Mechanism read_all(std::vector<std::string>& paths, std::vector<report::SetView>& views) {
+  std::map<const symbolic::SetDefinition*, ReadView> by_set;
   for (const std::string& path : paths) {
-    report::SetView view = read_one(path);
-    const auto [place, added] = by_set.try_emplace(view.set, path, std::move(view));
-    if (!added) {
-      const auto& [other, of_set] = place->second;
+    ReadView read = read_one(path);
+    const symbolic::SetDefinition* set = read.view.set;
+    const auto [place, added] = by_set.try_emplace(set, std::move(read));
+    if (!added)
       throw result::ResultFileError(
-          fmt::format("{}: holds the set {}, which {} holds already", path, of_set.result.set, other));
-    }
-    const auto& [first_path, first] = by_set.begin()->second;
-    const result::Result &a = place->second.second.result, &b = first.result;
+          fmt::format("{}: holds the set {}, which {} holds already", path, set->name, place->second.path));
+    const ReadView& first = by_set.begin()->second;
+    const result::Result &a = place->second.view.result, &b = first.view.result;
     if (a.model_text != b.model_text || a.options.constants != b.options.constants)
       throw result::ResultFileError(
-          fmt::format("{} and {} are results of different models, or with different constants", path, first_path));
+          fmt::format("{} and {} are results of different models, or with different constants", path, first.path));
   }
-  std::vector<report::SetView> views;
   paths.clear();
-  for (auto& [set, entry] : by_set) {
-    paths.push_back(entry.first);
-    views.push_back(std::move(entry.second));
+  for (auto& [set, read] : by_set) {
+    paths.push_back(read.path);
+    views.push_back(std::move(read.view));
   }
-  return views;
+  return std::move(by_set.begin()->second.model);
 }
 
 // To the sets, where nobody chose others.
@@ -153,9 +149,8 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
   static auto* const kept = new std::list<std::vector<report::SetView>>;  // not freed: the process ends with the command
   std::vector<report::SetView>& views = kept->emplace_back();
   std::vector<report::SetView>& drawn = kept->emplace_back();  // of the robot as drawn, where constants have tolerances
-  if (!command.results.empty()) views = read_all(command.results);
   const study::Question question =
-      views.empty() ? load(command.question) : study::Question{.model = result::model_of(views.front().result)};
+      command.results.empty() ? load(command.question) : study::Question{.model = read_all(command.results, views)};
   const symbolic::Mechanism& mechanism = question.model;
   if (mechanism.is_plain_system())
     throw symbolic::ModelError({mechanism.name(), 0, 0}, "the model names no inputs and outputs",

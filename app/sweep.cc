@@ -29,8 +29,8 @@ struct SweepCommand {
 struct Plan {
   std::string value;
   study::Question question;
-  std::vector<System> systems;                        ///< of the sets
-  std::vector<std::optional<VelocityBlocks>> blocks;  ///< likewise
+  std::vector<System> systems;                              ///< of the sets
+  std::vector<std::optional<solve::Labelling>> labellings;  ///< likewise
 };
 
 /// A robot's equations depend on its constants: at special values its axes are parallel, and it has other coordinates.
@@ -65,7 +65,7 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
             fmt::format("--sets {}: corank sweep cannot draw this set; corank solve computes it for one mechanism", name));
       p.question.set = symbolic::singularity_set_from_string(name);
       p.systems.push_back(study::system(p.question));
-      p.blocks.push_back(study::type_blocks(p.question));
+      p.labellings.push_back(study::labelling(p.question));
     }
   }
   return plans;
@@ -84,7 +84,7 @@ std::vector<study::EarlyTask> early_tasks(const SweepCommand& command, const std
   for (const Plan& plan : plans) {
     for (std::size_t s = 0; s < sets; ++s) {
       const study::Options options = options_of(command, plan, s);
-      tasks.push_back({symbolic::singularity_set_from_string(command.search.sets[s]), plan.systems[s], plan.blocks[s],
+      tasks.push_back({symbolic::singularity_set_from_string(command.search.sets[s]), plan.systems[s], plan.labellings[s],
                        options, command.search.limits_beside(options.search, 0), s});
       tasks.back().then = [&to = found[tasks.size() - 1], size = plan.systems[s].configuration_size](const Cover& cover) {
         to = report::components(cover.boxes, size);

@@ -177,7 +177,7 @@ class Answer {
                                       solve::Control& control) {
     std::vector<result::Result> results;
     for (std::size_t i = 0; i < systems.parts.size(); ++i) {
-      const study::Asked asked = study::prepare(systems.parts[i], systems.of_parts[i], options, control);
+      const study::Asked asked = study::prepare(systems.parts[i], systems.of_parts[i], options, control, false);
       Cover cover = solve::solve(asked.prepared, control);
       results.push_back(study::describe(systems.parts[i], systems.of_parts[i], options, std::move(cover), control.ending()));
     }

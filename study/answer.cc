@@ -8,8 +8,6 @@
 #include "corank/core/check.h"
 #include "corank/result/values/sentences.h"
 #include "corank/solve/exactness/corank_system.h"
-#include "corank/solve/exactness/exactness.h"
-#include "corank/solve/search/box_labels.h"
 #include "corank/study/run_journal.h"
 #include "corank/study/search_steps.h"
 #include "corank/symbolic/model/evaluate.h"
@@ -59,7 +57,8 @@ result::Result answer_one(const Question& question, const System& system, const 
   const solve::Prepared& prepared = asked.prepared;
   Cover cover = journal ? solve::solve_on(prepared, control, journal, journal->next_search(prepared))
                         : solve::solve(prepared, control);
-  return finish(question, system, options, asked, std::move(cover), control);
+  solve::settle(prepared, asked.settling, cover, control);
+  return describe(question, system, options, std::move(cover), control.ending());
 }
 
 }  // namespace
@@ -100,14 +99,16 @@ void check_options(const solve::Options& options, const System& system) {
     throw solve::OptionError("proof", "expected exact coefficients; a tolerance of 0 takes them as exact");
 }
 
-Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control) {
+Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control,
+              bool settled) {
   solve::Options searched = options.search;
   NodeSearch nodes;
   if (symbolic::definition(question.set).part == symbolic::LocusPart::nodes && !searched.proof && searched.roots.empty()) {
     nodes = node_search(question, system, searched, control);
     searched.roots = std::move(nodes.roots);
   }
-  return {solve::prepare(system, searched, control), nodes.processed};
+  solve::Settling settling{settled ? labelling(question) : std::nullopt, options.digits, nodes.processed};
+  return {solve::prepare(system, searched, control), std::move(settling)};
 }
 
 result::Result join(const std::vector<Question>& parts, std::vector<result::Result> results) {
@@ -152,26 +153,11 @@ result::Result answer(const Question& question, const System& system, const Opti
   return result;
 }
 
-std::optional<VelocityBlocks> type_blocks(const Question& q) {
+std::optional<solve::Labelling> labelling(const Question& q) {
   if (!q.set || q.part) return std::nullopt;
-  return symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
-}
-
-void label(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks,
-           const solve::Prepared& prepared, Cover& cover, solve::Control& control) {
-  if (!blocks) return;
-  solve::label_types(prepared, *blocks, cover, control);
-  if (const auto type = symbolic::definition(set).type) solve::keep_only(*type, cover);
-}
-
-void settle(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks, const Options& options,
-            const Asked& asked, Cover& cover, solve::Control& control) {
-  const solve::Prepared& prepared = asked.prepared;
-  cover.statistics.processed += asked.processed_before;
-  control.keep(static_cast<std::int64_t>(solve::bytes_of(cover, control.limits().later_bytes)));
-  solve::prove_exactly(prepared, cover, control);
-  label(set, blocks, prepared, cover, control);
-  if (options.digits > 0 && cover.dimension == 0) solve::prove_decimals(prepared, options.digits, cover, control);
+  auto blocks = symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
+  if (!blocks) return std::nullopt;
+  return solve::Labelling{std::move(*blocks), symbolic::definition(q.set).type};
 }
 
 result::Result describe(const Question& question, const System& system, const Options& options, Cover cover,
@@ -184,7 +170,9 @@ result::Result describe(const Question& question, const System& system, const Op
   result.cover = std::move(cover);
   if (ending) result.stopped = to_string(*ending);
   result::describe_system(system, result);
-  result.free_coordinates = result::free_coordinates(question.model, system, question.assembly.has_value());
+  result.free_coordinates =
+      result::free_coordinates(question.model, system, question.assembly.has_value(),
+                               question.part ? symbolic::joints(*question.part) : std::vector<std::string>());
   result::describe_in_words(question.model, system, result);
   const solve::Options& search = options.search;
   result.options = {kernel_of(question),          result.cover.sigma, system.kernel_scales,
@@ -199,12 +187,6 @@ result::Result describe(const Question& question, const System& system, const Op
   const auto* component = question.part ? std::get_if<symbolic::Component>(&*question.part) : nullptr;
   if (question.assembly && !(component && component->factor)) describe_states(*question.assembly, result);
   return result;
-}
-
-result::Result finish(const Question& question, const System& system, const Options& options, const Asked& asked,
-                      Cover cover, solve::Control& control) {
-  settle(question.set, type_blocks(question), options, asked, cover, control);
-  return describe(question, system, options, std::move(cover), control.ending());
 }
 
 }  // namespace corank::study

@@ -10,7 +10,7 @@
 #include "corank/result/values/sentences.h"
 #include "corank/solve/search/box_labels.h"
 #include "corank/solve/search/recut.h"
-#include "corank/study/search_steps.h"
+#include "corank/symbolic/model/set_definition.h"
 
 namespace corank::study {
 namespace {
@@ -39,7 +39,7 @@ void cut_one(const symbolic::Mechanism& model, const solve::Options& options, so
   }
   solve::bound_kernel_dimensions(prepared, cover, control);
   solve::prove_passages(prepared, cover, control);
-  label(symbolic::singularity_set_from_string(result.set), blocks, prepared, cover, control);
+  if (blocks) solve::label_types(prepared, {*blocks, symbolic::definition(result.set).type}, cover, control);
   cover.types.left_out += left_out;
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.options.sigma = cover.sigma;

@@ -31,10 +31,10 @@ std::optional<Cover> search(const EarlyTask& task) {
   solve::Control control(limits);
   Options options = task.options;
   options.search.threads = 1;
-  const Asked asked{solve::prepare(task.system, options.search, control)};
-  Cover cover = solve::solve(asked.prepared, control);
+  const solve::Prepared prepared = solve::prepare(task.system, options.search, control);
+  Cover cover = solve::solve(prepared, control);
   if (control.ending()) return std::nullopt;
-  settle(task.set, task.blocks, options, asked, cover, control);
+  solve::settle(prepared, {task.labelling, options.digits}, cover, control);
   if (control.ending() || !cover.complete()) return std::nullopt;
   if (task.then) task.then(cover);
   return cover;

@@ -38,7 +38,8 @@ void settle_sizes(System& system) {
 
 enum class Components { no, if_simple, yes };
 
-Components components_wanted(const Question& q) {
+// `free`: of the model, if it was asked for.
+Components components_wanted(const Question& q, std::optional<std::optional<symbolic::FreeCoordinates>>& free) {
   const symbolic::SetDefinition& set = definition(q.set);
   if (!set.has_kernel() || set.locked.empty() || set.type || q.kernel || q.corank != 1) return Components::no;
   if (q.in_parts) return *q.in_parts ? Components::yes : Components::no;
@@ -50,7 +51,8 @@ Components components_wanted(const Question& q) {
   const long columns = own ? std::ssize(q.model.rates()) : std::ssize(all),
              rows = own ? std::ssize(q.model.velocity_equations()) : std::ssize(q.model.equations());
   if (columns - rows - std::ranges::count_if(all, symbolic::is_fixed) >= kLeastMobility) return Components::yes;
-  const bool is_long = rows >= kLongKernel || (rows >= kLongKernelOfAnArm && symbolic::free_coordinates(q.model));
+  if (rows >= kLongKernelOfAnArm && rows < kLongKernel) free = symbolic::free_coordinates(q.model);
+  const bool is_long = rows >= kLongKernel || (free && *free);
   return is_long ? Components::if_simple : Components::no;
 }
 
@@ -92,13 +94,14 @@ std::vector<Question> parts_of(const Question& question, const Ended& ended) {
     if (question.in_parts.value_or(false)) require_exact_constants(question.model, "a set that is solved in parts");
     return {question};
   }
-  const Components wanted = components_wanted(question);
+  std::optional<std::optional<symbolic::FreeCoordinates>> free;
+  const Components wanted = components_wanted(question, free);
   const bool of_requirements = definition(question.set).of_requirements;
   if (of_requirements ? question.kernel || question.corank != 1 || !question.in_parts.value_or(true)
                       : !definition(question.set).of_parts && wanted == Components::no)
     return {question};
   std::vector<Question> parts;
-  for (symbolic::SetPart& part : symbolic::set_parts(question.model, *question.set, ended)) {
+  for (symbolic::SetPart& part : symbolic::set_parts(question.model, *question.set, ended, free ? &*free : nullptr)) {
     parts.push_back(question);
     parts.back().part = std::move(part);
   }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "corank/solve/exactness/exactness.h"
 #include "corank/solve/search/solve.h"
 #include "corank/solve/step/control.h"
 #include "corank/study/answer.h"
@@ -14,28 +15,19 @@ namespace corank::study {
 /// A question that is ready to be searched.
 struct Asked {
   solve::Prepared prepared;
-  std::uint64_t processed_before = 0;  ///< boxes, to find out where to search
+  solve::Settling settling;  ///< of what the search finds
 };
 
 /// Throws solve::OptionError where the options do not go with the system.
 void check_options(const solve::Options& options, const System& system);
 
-/// `system`: system(question). Throws as solve::prepare does.
-Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control);
+/// `system`: system(question). Unless what is found is `settled` later (solve::settle), no types are asked of the model.
+/// Throws as solve::prepare does.
+Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control,
+              bool settled = true);
 
-/// `cover`: of solve::solve(asked.prepared). What follows, one after the other.
-result::Result finish(const Question& question, const System& system, const Options& options, const Asked& asked,
-                      Cover cover, solve::Control& control);
-
-/// What types of singularity are read off, to label boxes with them (solve::label_types); nothing where they get none.
-std::optional<VelocityBlocks> type_blocks(const Question& question);
-/// Labels types, where there are blocks, and keeps those of the set's own type.
-void label(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks,
-           const solve::Prepared& prepared, Cover& cover, solve::Control& control);
-/// Proves exactly what can be, labels types, finds decimals. Like solve::prepare and solve::solve it knows no model, whose
-/// algebra is for one thread alone: several threads may settle covers at once.
-void settle(std::optional<symbolic::SingularitySet> set, const std::optional<VelocityBlocks>& blocks, const Options& options,
-            const Asked& asked, Cover& cover, solve::Control& control);
+/// What boxes are labelled with; nothing where they get no types.
+std::optional<solve::Labelling> labelling(const Question& question);
 /// Puts beside a settled cover what a result says of its question. `ending`: of the control.
 result::Result describe(const Question& question, const System& system, const Options& options, Cover cover,
                         const std::optional<solve::Ending>& ending);

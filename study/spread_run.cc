@@ -48,7 +48,8 @@ void SpreadRun::finish() {
   const std::size_t i = finished();
   Cover cover = search_->assemble(control_);
   search_.reset();  // its memory is not counted any more
-  results_.push_back(study::finish(systems_.parts[i], systems_.of_parts[i], options_, *asked_, std::move(cover), control_));
+  solve::settle(asked_->prepared, asked_->settling, cover, control_);
+  results_.push_back(describe(systems_.parts[i], systems_.of_parts[i], options_, std::move(cover), control_.ending()));
   asked_.reset();
 }
 

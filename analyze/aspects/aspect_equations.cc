@@ -86,7 +86,8 @@ AspectEquations aspect_equations(study::Question question, bool requirements, bo
   question.set = symbolic::SingularitySet::cspace;
   AspectEquations result{.question = std::move(question)};
   const symbolic::Mechanism& model = result.question.model;
-  symbolic::TrigonometricSystem equations = study::equations(result.question);
+  symbolic::TrigonometricSystem equations =
+      symbolic::singularity_system(model, symbolic::SingularitySet::cspace, {}, {}, result.question.corank);
   symbolic::Loci loci;
   try {
     loci = symbolic::singularity_loci(model, ended);

@@ -110,7 +110,8 @@ struct Corner {
 
 class Drawer {
  public:
-  Drawer(SignCells& cells, const std::vector<std::string>& names, const Ended& ended) : cells_(cells), ended_(ended) {
+  Drawer(SignCells& cells, const std::vector<std::string>& names, const solve::Control& control)
+      : cells_(cells), control_(control) {
     const System& system = cells.system();
     for (const std::string& name : names) {
       Coordinate c;
@@ -127,7 +128,7 @@ class Drawer {
 
   void draw(const SignCell& cell, const Box& sides, const std::vector<int>& signs, int depth,
             std::vector<PieceDrawing::Polygon>& out) {
-    if (ended_()) return;
+    if (control_.ended()) return;
     const SignCell here = cells_.cell_over(cell, sides);
     const int all = certify::SignCellTest::holds(here, signs);
     if (all < 0) return;
@@ -205,7 +206,7 @@ class Drawer {
   }
 
   SignCells& cells_;
-  const Ended& ended_;
+  const solve::Control& control_;
   std::vector<Coordinate> coordinates_;
   bool known_ = true;
 };
@@ -246,10 +247,10 @@ PieceImages images(SignCells& cells, const Pieces& pieces, int x, int y, int row
 }
 
 std::optional<PieceDrawing> draw(SignCells& cells, const Pieces& pieces, const std::vector<std::string>& coordinates,
-                                 const Ended& ended) {
+                                 const solve::Control& control) {
   constexpr int kDepth = 2;
   PieceDrawing result;
-  Drawer drawer(cells, coordinates, ended);
+  Drawer drawer(cells, coordinates, control);
   if (cells.cover().dimension != 2 || !drawer.known()) return result;
   result.coordinates = coordinates;
   for (std::size_t k = 0; k < coordinates.size(); ++k) result.is_angle.push_back(drawer.is_angle(k));
@@ -259,7 +260,7 @@ std::optional<PieceDrawing> draw(SignCells& cells, const Pieces& pieces, const s
     const SignCell& cell = cells.cells()[part.cell];
     drawer.draw(cell, cell.sides, part.signs, kDepth, result.pieces[part.piece]);
   }
-  if (ended()) return std::nullopt;
+  if (control.ended()) return std::nullopt;
   return result;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "corank/analyze/pieces/pieces.h"
-#include "corank/core/ended.h"
 
 namespace corank::analyze {
 
@@ -29,8 +28,8 @@ struct PieceDrawing {
 };
 
 /// `coordinates`: lengths and angles of the cells' system. Empty where the set has not two dimensions, or there is no such
-/// coordinate; nothing where it was `ended`.
+/// coordinate; nothing where `control` has ended it.
 std::optional<PieceDrawing> draw(SignCells& cells, const Pieces& pieces, const std::vector<std::string>& coordinates,
-                                 const Ended& ended);
+                                 const solve::Control& control);
 
 }  // namespace corank::analyze

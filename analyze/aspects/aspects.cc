@@ -44,12 +44,11 @@ void count_on_cells(const AspectEquations& equations, const AspectsOptions& opti
     }
     SignCells cells = cells_of(space, equations.functions[list], options, control);
     Pieces found = pieces(cells, control);
-    if (equations.standings) keep_required(found, [&](const Box& box) { return equations.standings->of(box); });
+    if (equations.standings) keep_required(found, equations.standings->of(found.representatives));
     const bool plane = dimension == 2 && options.images.size() == 2 && found.exact();
     const int x = plane ? result.system.find(options.images[0]) : -1, y = plane ? result.system.find(options.images[1]) : -1;
     if (first && x >= 0 && y >= 0) result.images = images(cells, found, x, y, options.rows, control);
-    if (first && !options.drawn.empty())
-      result.drawing = draw(cells, found, options.drawn, [&control] { return control.ended(); });
+    if (first && !options.drawn.empty()) result.drawing = draw(cells, found, options.drawn, control);
     if (first && options.cusps) result.cusps = aspect_cusps(equations, cells, found, options.threads, control);
     if (first && options.placed) result.places = piece_places(cells, found, options.placed->boxes, control);
     return found;

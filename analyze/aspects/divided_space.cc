@@ -33,7 +33,7 @@ DividedSpace divided_space(System system, const AspectsOptions& options, solve::
 
 SignCells cells_of(const DividedSpace& space, const std::vector<Polynomial>& functions, const AspectsOptions& options,
                    solve::Control& control) {
-  SignCells cells(space.system, *space.cover, functions, space.ends, [&control] { return control.ended(); });
+  SignCells cells(space.system, *space.cover, functions, space.ends, control);
   cells.refine(options.halvings, options.rounds, control);
   return cells;
 }

@@ -1,7 +1,6 @@
 // The pieces of a smooth set without the zeros of given functions, counted on cells (sign_cells.h).
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,9 +38,9 @@ struct Pieces {
 Pieces pieces(SignCells& cells, solve::Control& control);
 
 /// Leaves out those pieces whose representatives do not meet, or are not shown to meet, what is required of the robot;
-/// of each it is asked by `standing`. Theorem: of pieces that differ, those that do not meet it are no more than at_most
+/// `standings` says so of each. Theorem: of pieces that differ, those that do not meet it are no more than at_most
 /// less those that do. Requires that requirements are met on a whole piece or nowhere in it (symbolic::required_space).
-void keep_required(Pieces& pieces, const std::function<Standing(const Box&)>& standing);
+void keep_required(Pieces& pieces, const std::vector<Standing>& standings);
 
 /// Of each box of some cover of the set, for pictures, the number of the piece in which its solutions are that are in any;
 /// where there are several the one of a solution next to its middle. −1: none is known. Ends early, with −1 of the rest,

@@ -4,13 +4,12 @@
 
 namespace corank::analyze {
 
-void keep_required(Pieces& pieces, const std::function<Standing(const Box&)>& standing) {
+void keep_required(Pieces& pieces, const std::vector<Standing>& standings) {
   Pieces kept;
   std::vector<int> places;  // of each piece, among those that are kept
   const auto known = std::min(pieces.representatives.size(), static_cast<std::size_t>(pieces.at_least));
   for (std::size_t i = 0; i < pieces.representatives.size(); ++i) {
-    const Standing found = standing(pieces.representatives[i]);
-    if (found == Standing::satisfied) {
+    if (standings[i] == Standing::satisfied) {
       places.push_back(static_cast<int>(kept.representatives.size()));
       kept.representatives.push_back(std::move(pieces.representatives[i]));
       kept.signs.push_back(std::move(pieces.signs[i]));
@@ -20,7 +19,7 @@ void keep_required(Pieces& pieces, const std::function<Standing(const Box&)>& st
     places.push_back(-1);
     if (i >= known) continue;  // it may be another one's piece
     --pieces.at_least;
-    const bool violated = found == Standing::violated;
+    const bool violated = standings[i] == Standing::violated;
     if (violated && pieces.at_most) --*pieces.at_most;
     pieces.beside.push_back({.box = std::move(pieces.representatives[i]),
                              .free = std::move(pieces.free[i]),

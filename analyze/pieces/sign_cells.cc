@@ -35,7 +35,7 @@ std::vector<double> sizes_of(const System& system, const std::vector<Polynomial>
 }  // namespace
 
 SignCells::SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
-                     const std::vector<Polynomial>& limits, const Ended& ended)
+                     const std::vector<Polynomial>& limits, const solve::Control& control)
     : system_(system),
       cover_(cover),
       given_(cover.boxes.size()),
@@ -51,7 +51,7 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
     // The sheet of a `boundary` box may go on beyond the domain.
     if (box.verdict == Verdict::boundary)
       for (const int d : solve::other_variables(box.free, system.size())) cell.sides[d] = region(cell)[d];
-    if (is_over(ended)) {
+    if (control.ended()) {
       for (int k = 0; k < this->functions(); ++k) cell.mixed.push_back(k);
       cell.range.assign(cell.mixed.size(), Interval(-HUGE_VAL, HUGE_VAL));
     } else {

@@ -40,10 +40,10 @@ struct SignCell : certify::SheetCell {
 /// well: along d the limits grow, so that the border of X_F is reached strictly within them, where S goes on.
 class SignCells {
  public:
-  /// `functions`: in the system's variables; so are the limits', which follow them in every list of signs. Once `ended` is
-  /// true, the cells that are left are not examined: each of their signs is open.
+  /// `functions`: in the system's variables; so are the limits', which follow them in every list of signs. Once `control`
+  /// has ended, the cells that are left are not examined: each of their signs is open.
   SignCells(const System& system, const Cover& cover, const std::vector<Polynomial>& functions,
-            const std::vector<Polynomial>& limits = {}, const Ended& ended = {});
+            const std::vector<Polynomial>& limits, const solve::Control& control);
 
   /// Divides cells until they are resolved, or the number of halvings of a box is reached; then, so many times, those that
   /// the third lemma resolves and in which a piece might hide (hiding_places): a sheet of their own is put over them where

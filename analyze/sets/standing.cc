@@ -23,4 +23,10 @@ Standing Standings::of(const Box& box) const {
                            {});
 }
 
+std::vector<Standing> Standings::of(const std::vector<Box>& boxes) const {
+  std::vector<Standing> list;
+  for (const Box& box : boxes) list.push_back(of(box));
+  return list;
+}
+
 }  // namespace corank::analyze

@@ -16,6 +16,7 @@ class Standings {
 
   /// satisfied: every solution in the box meets all of them; violated: none does. In the variables of the algebrized space.
   Standing of(const Box& box) const;
+  std::vector<Standing> of(const std::vector<Box>& boxes) const;  ///< of each
 
  private:
   std::vector<Requirement> requirements_;

@@ -212,7 +212,7 @@ Components components_within(const System& system, const Cover& cover, const std
     result.reason = "boxes that are neither regular nor at an end";
     return result;
   }
-  SignCells cells(whole, cover, {}, functions, [&control] { return control.ended(); });
+  SignCells cells(whole, cover, {}, functions, control);
   cells.refine(options.halvings, options.rounds, control);
   const Pieces found = pieces(cells, control);
   result.at_least = found.at_least;

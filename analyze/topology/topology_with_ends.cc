@@ -107,7 +107,7 @@ class EdgePieces {
       return;
     }
     if (!is_square_over(system_, 1)) return;
-    cells_.emplace(system_, cover, std::vector<Polynomial>{}, functions);
+    cells_.emplace(system_, cover, std::vector<Polynomial>{}, functions, control);
     cells_->refine(options.halvings, options.rounds, control);
     pieces_ = pieces(*cells_, control);
     if (pieces_.exact()) count_ = pieces_.at_least;

@@ -59,11 +59,9 @@ std::string completeness(const Report& report, bool complete) {
   const check::ProofTally& proof = report.proof;
   if (!proof.present && (report.interrupted || report.left_out > 0)) return "";
   if (!proof.present) return "completeness: no proof in the file\n";
-  std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched again\n",
-                                 proof.verified       ? "replayed"
-                                 : report.interrupted ? "not shown yet"
-                                                      : "NOT SHOWN",
-                                 proof.steps, proof.leaves, proof.searched);
+  const char* const shown = proof.verified ? "replayed" : report.interrupted ? "not shown yet" : "NOT SHOWN";
+  std::string text = fmt::format("completeness: {}, {} steps, {} leaves, {} parts searched again\n", shown, proof.steps,
+                                 proof.leaves, proof.searched);
   if (proof.open)
     text += "  it could not be shown next to a self-motion, where the equations say little; it may hold nevertheless\n";
   if (proof.verified && !complete) text += "  except for the pending boxes: the search ended early\n";
@@ -138,8 +136,11 @@ void add(const Tally& t, Tally& sum) {
   sum.unchecked += t.unchecked;
 }
 
-void add_failures(const std::vector<Failure>& failures, const std::string& of, Report& sum) {
-  for (const Failure& f : failures) sum.failures.push_back({f.place, f.index, "(" + of + ") " + f.reason});
+// And where it was interrupted.
+void add_failures(const Report& part, const std::string& of, Report& sum) {
+  for (const Failure& f : part.failures) sum.failures.push_back({f.place, f.index, "(" + of + ") " + f.reason});
+  if (part.interrupted && !sum.interrupted) sum.stage = part.stage;
+  sum.interrupted = sum.interrupted || part.interrupted;
 }
 
 void add(const Report& part, const std::string& name, bool first, Report& sum) {
@@ -154,9 +155,78 @@ void add(const Report& part, const std::string& name, bool first, Report& sum) {
   sum.proof.steps += part.proof.steps;
   sum.proof.leaves += part.proof.leaves;
   sum.proof.searched += part.proof.searched;
-  add_failures(part.failures, "part: " + name, sum);
-  if (part.interrupted && !sum.interrupted) sum.stage = part.stage;
-  sum.interrupted = sum.interrupted || part.interrupted;
+  add_failures(part, "part: " + name, sum);
+}
+
+bool same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const CoverBox& x, const CoverBox& y) {
+    return x.box == y.box && x.verdict == y.verdict && x.passage == y.passage && x.side == y.side && x.part == y.part &&
+           x.free == y.free && x.reason == y.reason;
+  });
+}
+
+// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the
+// polynomials' text (comments aside) and the options.
+std::vector<std::string> contradictions(const Result& result, const System& system) {
+  std::vector<std::string> list;
+  const auto check = [&list](bool good, const std::string& what) {
+    if (!good) list.push_back(what + " not that of the model");
+  };
+  Result expected;
+  describe_system(system, expected);
+  bool variables = result.variables.size() == expected.variables.size();
+  for (std::size_t i = 0; variables && i < expected.variables.size(); ++i) {
+    const ResultVariable &a = result.variables[i], &b = expected.variables[i];
+    variables = a.name == b.name && a.kind == b.kind;
+    check(!variables || a.domain == b.domain, "the domain of " + b.name + " is");
+  }
+  check(variables, "the list of variables is");
+  check(std::ranges::equal(result.angles, expected.angles,
+                           [](const Angle& a, const Angle& b) {
+                             return a.name == b.name && a.cosine == b.cosine && a.sine == b.sine && a.range == b.range;
+                           }),
+        "the list of angles is");
+  check(result.configuration_size == expected.configuration_size, "the number of configuration variables is");
+  check(result.equations == expected.equations, "the number of equations is");
+  check(result.inequalities == expected.inequalities, "the number of inequalities is");
+  check(without_comments(result.system_text) == without_comments(symbolic::to_cuik(system)), "the system is");
+  if (result.options.sigma != result.cover.sigma) list.emplace_back("two different values of sigma");
+  const double tolerance = kPartialTolerance * system.coefficient_tolerance;
+  const bool square = system.equations.size() <= system.variables.size();
+  if (!(result.cover.tolerance == tolerance || (!square && result.cover.tolerance == 0)))
+    list.emplace_back("the tolerance is not that of the options");
+  for (const std::string& misplaced : misplaced_decimals(result)) list.push_back(misplaced);
+  return list;
+}
+
+// Where a result contradicts its parts or is not made of those that its model has; nothing where it is no set of parts.
+std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result) {
+  const bool is_boundary = symbolic::definition(result.set).of_parts;
+  if (!is_boundary && result.parts.empty()) return {};
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
+  const std::vector<symbolic::SetPart> expected = symbolic::set_parts(model, *set);
+  const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(),
+                              [](const symbolic::SetPart& a, const Result& b) { return text(a) == b.part; });
+  if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const Result& part = result.parts[i];
+    if (is_boundary && part.outputs != model.outputs())
+      list.push_back("(part: " + part.part + ") the outputs are not those of the model");
+    if (part.set != result.set) return {"a part is of another set"};
+    const System system = symbolic::SetEquations(model, *set, expected[i]).compiled(part.options.kernel_scales);
+    const std::vector<std::string> free = free_coordinates(model, system, true, joints(expected[i]));
+    for (const std::string& name : part.free_coordinates)
+      if (std::ranges::find(free, name) == free.end())
+        list.push_back(fmt::format("(part: {}) {} is not free", part.part, name));
+  }
+  Result merged = result;
+  merge_parts(merged);
+  if (!same_boxes(merged.cover.boxes, result.cover.boxes) || !same_boxes(merged.cover.points, result.cover.points) ||
+      merged.cover.dimension != result.cover.dimension || merged.outputs != result.outputs)
+    list.emplace_back("the whole is not made of its parts");
+  return list;
 }
 
 Verification verify_parts(const Result& result, Verification verification, const check::Options& options) {
@@ -167,20 +237,13 @@ Verification verify_parts(const Result& result, Verification verification, const
   for (std::size_t i = 0; verification.contradictions.empty() && i < result.parts.size(); ++i) {
     const Result& part = result.parts[i];
     const System system = system_of(model, part);
-    for (const std::string& c : contradictions(part, system, symbolic::to_cuik(system)))
+    for (const std::string& c : contradictions(part, system))
       verification.contradictions.push_back("(part: " + part.part + ") " + c);
     if (verification.contradictions.empty())
       add(check::check(system, part.cover, options), part.part, i == 0, verification.report);
     if (verification.report.interrupted) break;
   }
   return verification;
-}
-
-bool same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const CoverBox& x, const CoverBox& y) {
-    return x.box == y.box && x.verdict == y.verdict && x.passage == y.passage && x.side == y.side && x.part == y.part &&
-           x.free == y.free && x.reason == y.reason;
-  });
 }
 
 // Of an empty set: the sample, or the search of C-space.
@@ -192,8 +255,7 @@ void verify_assembly(const Result& result, const check::Options& options, Verifi
     return;
   }
   const System system = system_of(model_of(result), cspace);
-  for (const std::string& c : contradictions(cspace, system, symbolic::to_cuik(system)))
-    verification.contradictions.push_back("(C-space) " + c);
+  for (const std::string& c : contradictions(cspace, system)) verification.contradictions.push_back("(C-space) " + c);
   if (!verification.contradictions.empty()) return;
   check::Options whole = options;
   whole.sample = 0;
@@ -205,15 +267,11 @@ void verify_assembly(const Result& result, const check::Options& options, Verifi
     // The set's configurations are among those of C-space, in the same ranges.
     if (!verification.report.proof.present && verification.report.left_out == 0) verification.report.proof = found.proof;
   }
-  add_failures(found.failures, "C-space", verification.report);
-  if (found.interrupted && !verification.report.interrupted) {
-    verification.report.interrupted = true;
-    verification.report.stage = found.stage;
-  }
+  add_failures(found, "C-space", verification.report);
 }
 
 Verification verify_set(const Result& result, const System& system, const check::Options& options) {
-  Verification verification{contradictions(result, system, symbolic::to_cuik(system)), {}};
+  Verification verification{contradictions(result, system), {}};
   if (!result.parts.empty() || symbolic::definition(result.set).of_parts)
     return verify_parts(result, std::move(verification), options);
   // Boxes of another system are not worth a check.
@@ -262,35 +320,6 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   return system;
 }
 
-std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result) {
-  const bool is_boundary = symbolic::definition(result.set).of_parts;
-  if (!is_boundary && result.parts.empty()) return {};
-  const auto set = symbolic::singularity_set_from_string(result.set);
-  if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
-  const std::vector<symbolic::SetPart> expected = symbolic::set_parts(model, *set);
-  const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(),
-                              [](const symbolic::SetPart& a, const Result& b) { return text(a) == b.part; });
-  if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
-  std::vector<std::string> list;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const Result& part = result.parts[i];
-    if (is_boundary && part.outputs != model.outputs())
-      list.push_back("(part: " + part.part + ") the outputs are not those of the model");
-    if (part.set != result.set) return {"a part is of another set"};
-    const System system = symbolic::SetEquations(model, *set, expected[i]).compiled(part.options.kernel_scales);
-    const std::vector<std::string> free = free_coordinates(model, system, true);
-    for (const std::string& name : part.free_coordinates)
-      if (std::ranges::find(free, name) == free.end())
-        list.push_back(fmt::format("(part: {}) {} is not free", part.part, name));
-  }
-  Result merged = result;
-  merge_parts(merged);
-  if (!same_boxes(merged.cover.boxes, result.cover.boxes) || !same_boxes(merged.cover.points, result.cover.points) ||
-      merged.cover.dimension != result.cover.dimension || merged.outputs != result.outputs)
-    list.emplace_back("the whole is not made of its parts");
-  return list;
-}
-
 std::optional<VelocityBlocks> blocks_of(const Result& result) {
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (result.cover.types.asked == 0 || !set) return std::nullopt;
@@ -308,36 +337,16 @@ Verification verify(const Result& result, const System& system, const check::Opt
   return verification;
 }
 
-std::vector<std::string> contradictions(const Result& result, const System& system, const std::string& system_text) {
-  std::vector<std::string> list;
-  const auto check = [&list](bool good, const std::string& what) {
-    if (!good) list.push_back(what + " not that of the model");
-  };
-  Result expected;
-  describe_system(system, expected);
-  bool variables = result.variables.size() == expected.variables.size();
-  for (std::size_t i = 0; variables && i < expected.variables.size(); ++i) {
-    const ResultVariable &a = result.variables[i], &b = expected.variables[i];
-    variables = a.name == b.name && a.kind == b.kind;
-    check(!variables || a.domain == b.domain, "the domain of " + b.name + " is");
-  }
-  check(variables, "the list of variables is");
-  check(std::ranges::equal(result.angles, expected.angles,
-                           [](const Angle& a, const Angle& b) {
-                             return a.name == b.name && a.cosine == b.cosine && a.sine == b.sine && a.range == b.range;
-                           }),
-        "the list of angles is");
-  check(result.configuration_size == expected.configuration_size, "the number of configuration variables is");
-  check(result.equations == expected.equations, "the number of equations is");
-  check(result.inequalities == expected.inequalities, "the number of inequalities is");
-  check(without_comments(result.system_text) == without_comments(system_text), "the system is");
-  if (result.options.sigma != result.cover.sigma) list.emplace_back("two different values of sigma");
-  const double tolerance = kPartialTolerance * system.coefficient_tolerance;
-  const bool square = system.equations.size() <= system.variables.size();
-  if (!(result.cover.tolerance == tolerance || (!square && result.cover.tolerance == 0)))
-    list.emplace_back("the tolerance is not that of the options");
-  for (const std::string& misplaced : misplaced_decimals(result)) list.push_back(misplaced);
-  return list;
+ReadResult read_to_show(const std::filesystem::path& path) {
+  Result result = read_result(path, {.free = false});
+  symbolic::Mechanism model = model_of(result);
+  System system = system_of(model, result);
+  std::vector<std::string> wrong = contradictions(result, system);
+  for (std::string& c : contradictions_of_parts(model, result)) wrong.push_back(std::move(c));
+  if (!wrong.empty())
+    throw ResultFileError(fmt::format("{}: contradicts the model in it: {}", path.string(), fmt::join(wrong, "; ")));
+  describe_in_words(model, system, result);
+  return {std::move(result), std::move(model), std::move(system)};
 }
 
 std::string to_table(const Verification& verification, const Result& result) {

@@ -1,6 +1,7 @@
 // What the independent checker found about a result, for people and for programs.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,12 +43,16 @@ std::optional<VelocityBlocks> blocks_of(const Result& result);
 Verification verify(const Result& result, const System& system, const check::Options& options = {});
 Verification verify(const Result& result, const check::Options& options = {});
 
-/// Where a result contradicts its parts or is not made of those that its model has; nothing where it is no set of parts.
-std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result);
-
-/// Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the
-/// polynomials' text (comments aside) and the options.
-std::vector<std::string> contradictions(const Result& result, const System& system, const std::string& system_text);
+/// A result that was read, and what the model in it makes.
+struct ReadResult {
+  Result result;
+  symbolic::Mechanism model;
+  System system;
+};
+/// Reads a result that may be anybody's, without what only a check needs, and puts words beside it (describe_in_words). What
+/// it says of its variables has to be so before a picture relies on it: throws ResultFileError where it contradicts the
+/// model in it.
+ReadResult read_to_show(const std::filesystem::path& path);
 
 /// A table of counts per verdict, the completeness proof, the first failures.
 std::string to_table(const Verification& verification, const Result& result);

@@ -15,7 +15,6 @@
 #include "corank/result/values/words.h"
 #include "corank/symbolic/model/model_error.h"
 #include "corank/symbolic/sets/cusps_and_nodes.h"
-#include "corank/symbolic/sets/free_coordinates.h"
 #include "corank/symbolic/velocity/velocity_equation.h"
 
 namespace corank::result {
@@ -179,7 +178,8 @@ std::vector<std::string> assembly_sentences(const Result& result) {
   return list;
 }
 
-std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, const System& system, bool from_parts) {
+std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, const System& system, bool from_parts,
+                                          const std::vector<std::string>& joints) {
   const auto is_value = [&](int v) {  // of the others, wherever they are
     const auto& list = mechanism.coordinates();
     const auto c = std::ranges::find(list, system.variables[v].name, &symbolic::Coordinate::name);
@@ -200,11 +200,6 @@ std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, 
       for (const int v : std::exchange(rows[i], {})) --uses[v];
       any = true;
     }
-  std::optional<symbolic::FreeCoordinates> of_arm;
-  const auto is_left_out_free = [&](const std::string& name) {
-    if (!of_arm) of_arm = symbolic::free_coordinates(mechanism);
-    return of_arm && of_arm->has(name);
-  };
   std::vector<std::string> result;
   for (const symbolic::Coordinate& c : mechanism.coordinates()) {
     if (!c.has_range || c.direction || c.auxiliary || symbolic::is_fixed(c)) continue;
@@ -212,8 +207,7 @@ std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, 
     std::vector<int> own{system.find(c.name)};
     if (angle != system.angles.end()) own = {angle->cosine, angle->sine};
     if (own[0] < 0) {  // left out: free, or given by others
-      if (!is_left_out_free(c.name)) continue;
-      result.push_back(c.name);
+      if (std::ranges::find(joints, c.name) != joints.end()) result.push_back(c.name);
       continue;
     }
     // An angle has its circle, and both may have their ranges.

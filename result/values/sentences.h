@@ -32,9 +32,10 @@ void describe_in_words(const symbolic::Mechanism& mechanism, const System& syste
 /// Result::free_coordinates. An equation a·x + g = 0 with a rational a ≠ 0 and an x without a declared range, in no other
 /// equation and no inequality, says what x is and nothing of the others. Without such equations, taken away in turns, a
 /// coordinate is free where nothing mentions it, or its sine and cosine, but an angle's circle and its range. So is one that
-/// the system leaves out, unless it is given by others (symbolic/sets/free_coordinates.h). Of a robot from parts the
+/// the system leaves out and that is one of `joints` (symbolic::Component), not given by others. Of a robot from parts the
 /// auxiliary coordinates, vectors of links, have no declared range.
-std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, const System& system, bool from_parts);
+std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, const System& system, bool from_parts,
+                                          const std::vector<std::string>& joints);
 /// ", for every theta2 and theta3"; nothing where none is free.
 std::string free_text(const Result& result);
 /// The part of describe_in_words() that is about ranges.

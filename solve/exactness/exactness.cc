@@ -23,6 +23,7 @@
 #include "corank/solve/search/solve.h"
 #include "corank/solve/step/box_order.h"
 #include "corank/solve/step/points.h"
+#include "corank/solve/store/memory.h"
 
 namespace corank::solve {
 namespace {
@@ -283,6 +284,14 @@ void prove_exactly(const Prepared& prepared, Cover& cover, Control& control) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   cover.statistics.seconds_total += seconds;
   cover.statistics.seconds_certify += seconds;
+}
+
+void settle(const Prepared& prepared, const Settling& settling, Cover& cover, Control& control) {
+  cover.statistics.processed += settling.processed_before;
+  control.keep(static_cast<std::int64_t>(bytes_of(cover, control.limits().later_bytes)));
+  prove_exactly(prepared, cover, control);
+  if (settling.labelling) label_types(prepared, *settling.labelling, cover, control);
+  if (settling.digits > 0 && cover.dimension == 0) prove_decimals(prepared, settling.digits, cover, control);
 }
 
 void prove_decimals(const Prepared& prepared, int digits, Cover& cover, Control& control) {

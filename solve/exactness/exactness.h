@@ -2,7 +2,10 @@
 // the kernel has dimension 2 or more, at which the kernel vector is a continuum.
 #pragma once
 
+#include <optional>
+
 #include "corank/core/cover.h"
+#include "corank/solve/search/box_labels.h"
 #include "corank/solve/step/control.h"
 #include "corank/solve/step/options.h"
 
@@ -35,5 +38,16 @@ void prove_exactly(const System& system, const Options& options, Cover& cover);
 /// point, proven by certify::prove_zero, or from its exact coordinates. Points that are left once the control has ended the
 /// run have none.
 void prove_decimals(const Prepared& prepared, int digits, Cover& cover, Control& control);
+
+/// What follows a search.
+struct Settling {
+  std::optional<Labelling> labelling{};  ///< nothing: boxes get no types
+  int digits = 0;                        ///< of decimals, of a set of dimension 0; 0: none
+  std::uint64_t processed_before = 0;    ///< boxes, to find out where to search
+};
+
+/// All that is said of the cover that solve() returned: prove_exactly(), label_types(), prove_decimals(). It knows no model,
+/// whose algebra is for one thread alone: several threads may settle covers at once.
+void settle(const Prepared& prepared, const Settling& settling, Cover& cover, Control& control);
 
 }  // namespace corank::solve

@@ -82,9 +82,7 @@ void label_by_region(ThreadArena& arena, Cover& cover, const Ended& stopped, Bou
   });
 }
 
-}  // namespace
-
-void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& cover, Control& control) {
+void add_labels(const Prepared& prepared, const VelocityBlocks& blocks, Cover& cover, Control& control) {
   const System& system = prepared.system;
   if (system.coefficient_tolerance > 0) return;
   const InStage stage(control, Stage::kernel);
@@ -141,6 +139,13 @@ void keep_only(SingularityType type, Cover& cover) {
     for (CoverBox& box : *list)
       if (box.region >= 0) box.region = place[box.region];
   cover.regions = std::move(regions);
+}
+
+}  // namespace
+
+void label_types(const Prepared& prepared, const Labelling& labelling, Cover& cover, Control& control) {
+  add_labels(prepared, labelling.blocks, cover, control);
+  if (labelling.only) keep_only(*labelling.only, cover);
 }
 
 void bound_kernel_dimensions(const Prepared& prepared, Cover& cover, Control& control) {

@@ -2,6 +2,8 @@
 // large the kernel is, whether an output can pass.
 #pragma once
 
+#include <optional>
+
 #include "corank/core/cover.h"
 #include "corank/core/singularity_types.h"
 #include "corank/solve/step/control.h"
@@ -9,13 +11,17 @@
 
 namespace corank::solve {
 
+/// What types of singularity are read off.
+struct Labelling {
+  VelocityBlocks blocks;
+  std::optional<SingularityType> only{};  ///< of a set of one type
+};
+
 /// CoverBox::types of every box and point, ExactPoint::types, Cover::types (certify::TypeBounds, on parts of the box where
 /// it must). What is left once the control has ended stays without, and so does all of a system with a tolerance.
-void label_types(const Prepared& prepared, const VelocityBlocks& blocks, Cover& cover, Control& control);
-
-/// Takes out the boxes and points in which no solution has the type, and counts them (Cover::types). Every solution of that
-/// type is in a box that stays. Where any goes, the proof of completeness goes as well: it speaks of all boxes.
-void keep_only(SingularityType type, Cover& cover);
+/// `only`: takes out the boxes and points in which no solution has that type, and counts them (Cover::types). Every solution
+/// of that type is in a box that stays. Where any goes, the proof of completeness goes as well: it speaks of all boxes.
+void label_types(const Prepared& prepared, const Labelling& labelling, Cover& cover, Control& control);
 
 /// CoverBox::kernel_at_most of every box and point, where the system has kernel equations (certify::KernelBound, on parts of
 /// the box where it must); a box where it is larger than the system asks for, and that holds a known exact point with such a

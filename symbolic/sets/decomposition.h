@@ -27,6 +27,7 @@ struct Component {
   std::optional<ExpressionMatrix> block{};  ///< with a kernel vector: more than three rows whose determinant is no product
   /// In place of Φ(q) = 0, where some coordinates are left out (set_parts.h).
   std::shared_ptr<const TrigonometricSystem> factor{};
+  std::vector<std::string> joints{};  ///< of such a part: the coordinates that give all others (free_coordinates.h)
 
   /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.
   std::string relation() const {

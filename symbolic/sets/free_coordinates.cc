@@ -111,10 +111,6 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
   return result;
 }
 
-bool FreeCoordinates::has(const std::string& name) const {
-  return std::ranges::find(system.coordinates, name, &Coordinate::name) != system.coordinates.end();
-}
-
 std::optional<TrigonometricSystem> mentioned_coordinates(const FreeCoordinates& free,
                                                          const std::vector<Expression>& functions) {
   if (has_given(free, functions)) return std::nullopt;

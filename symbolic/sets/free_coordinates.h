@@ -23,8 +23,6 @@ struct FreeCoordinates {
   TrigonometricSystem system;
   /// In the order of their equations, each by free ones and those before it: x = f.
   std::vector<Relation> given;
-
-  bool has(const std::string& name) const;  ///< is it one of the free ones?
 };
 
 /// Nothing where some equation gives no coordinate, a given one has one value or stands in a sine, or a range depends on a

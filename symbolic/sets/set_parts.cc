@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "corank/symbolic/sets/algebrizer.h"
-#include "corank/symbolic/sets/free_coordinates.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 
 namespace corank::symbolic {
@@ -15,14 +14,17 @@ std::string text(const SetPart& part) {
   return std::get<BoundaryPart>(part).text();
 }
 
+std::vector<std::string> joints(const SetPart& part) {
+  const auto* component = std::get_if<Component>(&part);
+  return component ? component->joints : std::vector<std::string>();
+}
+
 namespace {
 
-// Nothing: of no arm, or of one whose singularities are a surface at most.
-std::optional<FreeCoordinates> joints_of_large_set(const Mechanism& mechanism) {
+// Of an arm whose singularities are more than a surface.
+bool is_large(const FreeCoordinates& joints) {
   constexpr long kLeastFree = 4;
-  auto free = free_coordinates(mechanism);
-  const bool is_large = free && std::ranges::count_if(free->system.coordinates, std::not_fn(is_fixed)) >= kLeastFree;
-  return is_large ? std::move(free) : std::nullopt;
+  return std::ranges::count_if(joints.system.coordinates, std::not_fn(is_fixed)) >= kLeastFree;
 }
 
 // False where some part has a kernel vector, or a condition that is not about joints.
@@ -36,26 +38,29 @@ bool leave_out_coordinates(const FreeCoordinates& free, std::vector<Component>& 
     auto factor = mentioned_coordinates(free, functions);
     if (part.block || !factor) return false;
     part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
+    for (const Coordinate& c : free.system.coordinates) part.joints.push_back(c.name);
   }
   return !parts.empty();
 }
 
 // Of an arm with a large set in its joints, if that can be done.
-std::vector<Component> components(const Mechanism& mechanism, SingularitySet set, const Ended& ended) {
+std::vector<Component> components(const Mechanism& mechanism, SingularitySet set, const Ended& ended,
+                                  const std::optional<FreeCoordinates>* known) {
   std::vector<Component> parts = decompose(mechanism, kernel_question(mechanism, set), ended);
-  const auto free = joints_of_large_set(mechanism);
-  if (!free) return parts;
+  const std::optional<FreeCoordinates> free = known != nullptr ? *known : free_coordinates(mechanism);
+  if (!free || !is_large(*free)) return parts;
   std::vector<Component> in_joints = parts;
   return leave_out_coordinates(*free, in_joints) ? in_joints : parts;
 }
 
 }  // namespace
 
-std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended) {
+std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended,
+                               const std::optional<FreeCoordinates>* free) {
   const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
   if (definition(set).of_parts) return as_parts(boundary_parts(mechanism));
   if (definition(set).of_requirements) return as_parts(requirement_parts(mechanism));
-  return as_parts(components(mechanism, set, ended));
+  return as_parts(components(mechanism, set, ended, free));
 }
 
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side)

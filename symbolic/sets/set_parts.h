@@ -12,6 +12,7 @@
 #include "corank/core/system.h"
 #include "corank/symbolic/sets/boundary.h"
 #include "corank/symbolic/sets/decomposition.h"
+#include "corank/symbolic/sets/free_coordinates.h"
 #include "corank/symbolic/sets/requirement_part.h"
 
 namespace corank::symbolic {
@@ -20,12 +21,16 @@ using SetPart = std::variant<BoundaryPart, Component, RequirementPart>;
 
 /// "theta2 at its upper limit"; "phi_rod1 = theta1". No two parts of a set have the same.
 std::string text(const SetPart& part);
+/// Of a part in fewer coordinates those that give all others (Component::joints); else none.
+std::vector<std::string> joints(const SetPart& part);
 
 /// boundary_parts(), requirement_parts(), or decompose(). Throws ModelError as these do.
 /// Of an arm whose singularities have dimension 3 or more, a part is about the joints alone that its condition or a range
 /// mentions: it is the product of what is found there and of the other joints' ranges, and all other coordinates follow from
 /// the joints (free_coordinates.h). In all coordinates such a set would be too large for boxes.
-std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended = {});
+/// `free`: free_coordinates(), where somebody has asked for them before.
+std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended = {},
+                               const std::optional<FreeCoordinates>* free = nullptr);
 
 /// What solves a set, or one of its parts: what its kernel is asked of, made once. Throws ModelError as kernel_question(),
 /// boundary_parts() and singularity_system() do.

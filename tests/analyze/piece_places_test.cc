@@ -77,7 +77,7 @@ TEST(PiecePlaces, AreUnknownOnceTheWorkIsStopped) {
   const Placed p = placed("three_slider", 0.1);
   const std::atomic<bool> stop{true};
   const solve::Control ended({.stop = &stop});
-  SignCells cells(p.system, p.cover, {});
+  SignCells cells(p.system, p.cover, {}, {}, ended);
   const std::vector<int> places = piece_places(cells, p.aspects.aspects, p.cover.boxes, ended);
   EXPECT_EQ(places, std::vector<int>(p.cover.boxes.size(), -1));
 }

@@ -19,8 +19,8 @@ using testing::IsEmpty;
 
 std::vector<std::string> free_of(const std::string& text) {
   const symbolic::Mechanism mechanism = symbolic::parse_model(text, "m.cuik");
-  return free_coordinates(mechanism, symbolic::SetEquations(mechanism, symbolic::SingularitySet::cspace).compiled({}),
-                          false);
+  return free_coordinates(mechanism, symbolic::SetEquations(mechanism, symbolic::SingularitySet::cspace).compiled({}), false,
+                          {});
 }
 
 TEST(FreeCoordinates, AreThoseThatOnlyCircleAndRangeMention) {

@@ -49,7 +49,7 @@ Result solved(const std::string& model, const std::string& set, double sigma, st
   solve::Control control;
   if (set != "cspace")
     solve::label_types(solve::prepare(system, options, control),
-                       *symbolic::velocity_blocks(model_of(result), *symbolic::singularity_set_from_string(set)),
+                       {*symbolic::velocity_blocks(model_of(result), *symbolic::singularity_set_from_string(set))},
                        result.cover, control);
   result.options.sigma = result.cover.sigma;
   return result;

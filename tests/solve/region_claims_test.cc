@@ -61,7 +61,7 @@ TEST(RegionClaims, AreNotOfPointsThatReachOutOfTheRegion) {
     const Planted planted(std::to_string(a) + "/8");
     const Prepared prepared = prepare(planted.system, {}, control);
     Cover cover = cover_beside(a / 8.0, size(random), size(random));
-    label_types(prepared, planted.blocks, cover, control);
+    label_types(prepared, {planted.blocks}, cover, control);
     bound_kernel_dimensions(prepared, cover, control);
     for (const CoverBox& box : cover.boxes) {
       EXPECT_EQ(box.types.excluded, bit(SingularityType::ro));
