@@ -21,9 +21,10 @@ std::vector<SigmaClass> sigma_classes(const System& system, const certify::Reduc
 double sigma_of(const Sigma& sigma, SigmaClass kind);
 
 /// A share of the size of a set: `hull` holds it, in all variables. The size of a set is its widest side, of lengths and of
-/// sines and cosines apart. The share is 1/200 for a curve, 1/60 for a surface, 1/20 for a larger set, both more
-/// where there are over 20 variables, and 1/20 where coefficients carry a tolerance; for isolated points 1e-6, and no less than the square root of the tolerance: so far apart
-/// may two solutions be that merge for some choice of the coefficients. A set without size counts as one of size 1.
+/// sines and cosines apart. The share is 1/200 for a curve, 1/60 for a surface, 1/20 for a larger set, both more where there
+/// are over 20 variables, and 1/20 where coefficients carry a tolerance; for isolated points 1e-6, and no less than the
+/// square root of the tolerance: so far apart may two solutions be that merge for some choice of the coefficients. A set
+/// without size counts as one of size 1.
 Sigma default_sigma(const System& system, const Box& hull, int dimension);
 
 }  // namespace corank::solve
