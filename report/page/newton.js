@@ -56,6 +56,7 @@ export function ontoSolutions(equations, start, scales = start.map(() => 1)) {
   const n = start.length,
     m = equations.length;
   const x = Float64Array.from(start);
+  const weights = scales.map((scale) => scale ** 2);
   const jacobian = equations.map(() => new Float64Array(n));
   const gram = new Float64Array(m * m),
     step = new Float64Array(m);
@@ -71,7 +72,7 @@ export function ontoSolutions(equations, start, scales = start.map(() => 1)) {
     for (let i = 0; i < m; ++i) {
       for (let j = 0; j <= i; ++j) {
         let sum = 0;
-        for (let k = 0; k < n; ++k) sum += jacobian[i][k] * jacobian[j][k] * scales[k] ** 2;
+        for (let k = 0; k < n; ++k) sum += jacobian[i][k] * jacobian[j][k] * weights[k];
         gram[i * m + j] = sum;
       }
       trace += gram[i * m + i];
@@ -79,7 +80,7 @@ export function ontoSolutions(equations, start, scales = start.map(() => 1)) {
     for (let i = 0; i < m; ++i) gram[i * m + i] += 1e-12 * (trace / m + 1e-300);
     solveSymmetric(gram, step, m);
     for (let i = 0; i < m; ++i) {
-      for (let k = 0; k < n; ++k) x[k] -= scales[k] ** 2 * jacobian[i][k] * step[i];
+      for (let k = 0; k < n; ++k) x[k] -= weights[k] * jacobian[i][k] * step[i];
     }
   }
   return {x, residual};

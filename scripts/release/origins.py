@@ -37,7 +37,7 @@ def output(*command: object, **options: object) -> str:
 
 
 def git(root: pathlib.Path, *words: str) -> str:
-    """What git says of the clone, whoever owns it: in a container that is not who runs this."""
+    """What git says of the clone, which in a container belongs to another user."""
     return output("git", "-c", "safe.directory=*", "-C", root, *words).strip()
 
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <utility>
 
@@ -12,7 +11,7 @@
 #include "corank/certify/projection.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
-#include "corank/symbolic/algebra/ginac_lock.h"
+#include "corank/symbolic/algebra/remembered.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/requirements.h"
 
@@ -68,16 +67,10 @@ bool are_alike(const TrigonometricSystem& a, const TrigonometricSystem& b) {
 
 // Hundreds of parts of a boundary ask for the same.
 std::shared_ptr<const Configurations> known_configurations(const Mechanism& mechanism) {
-  constexpr std::size_t kRemembered = 2;
-  const GinacLock lock;  // of what is remembered, too
-  static std::deque<std::pair<TrigonometricSystem, std::shared_ptr<const Configurations>>> remembered;
-  TrigonometricSystem plain = plain_system(mechanism);
-  for (const auto& [of, found] : remembered)
-    if (are_alike(of, plain)) return found;
-  auto result = std::make_shared<const Configurations>(narrowed(algebrize(plain)));
-  remembered.emplace_front(std::move(plain), result);
-  if (remembered.size() > kRemembered) remembered.pop_back();
-  return result;
+  static Remembered<TrigonometricSystem, std::shared_ptr<const Configurations>> remembered(2);
+  return remembered.of(plain_system(mechanism), are_alike, [](const TrigonometricSystem& plain) {
+    return std::make_shared<const Configurations>(narrowed(algebrize(plain)));
+  });
 }
 
 double size_of(const Interval& x) {

@@ -1,12 +1,12 @@
 #include "corank/symbolic/velocity/velocity_equation.h"
 
 #include <algorithm>
-#include <deque>
 #include <map>
 
 #include "corank/core/check.h"
 #include "corank/symbolic/algebra/ginac_bridge.h"
 #include "corank/symbolic/algebra/ginac_lock.h"
+#include "corank/symbolic/algebra/remembered.h"
 
 namespace corank::symbolic {
 namespace {
@@ -185,18 +185,10 @@ std::vector<std::string> VelocityEquation::names_of(Role role) const {
   return names;
 }
 
-// The same equations are asked for again and again while a question is answered, and GiNaC takes its time.
 Derivation derive(const Mechanism& mechanism) {
-  constexpr std::size_t kRemembered = 4;
   mechanism.validate();
-  const GinacLock lock;  // of what is remembered, too
-  static std::deque<std::pair<Mechanism, Derivation>> remembered;
-  for (const auto& [of, derivation] : remembered)
-    if (derives_alike(of, mechanism)) return derivation;
-  Derivation result = derived(mechanism);
-  remembered.emplace_front(mechanism, result);
-  if (remembered.size() > kRemembered) remembered.pop_back();
-  return result;
+  static Remembered<Mechanism, Derivation> remembered(4);
+  return remembered.of(mechanism, derives_alike, derived);
 }
 
 std::vector<Expression> residuals(const Mechanism& mechanism) {
