@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <boost/algorithm/string.hpp>
+
 #include "corank/report/html/page.h"
 #include "corank/report/html/page_words.h"
 #include "corank/result/files/verification.h"
@@ -52,18 +54,26 @@ std::string system_html(const symbolic::TrigonometricSystem& system, const SetVi
                      kernel.empty() ? "" : ", " + symbolic::html_text(kernel) + " kernel", numbered(equations, sources));
 }
 
+// "d1 = 0, d2 = 0" as formulas.
+std::string relations_html(const std::string& text) {
+  std::vector<std::string> formulas, relations;
+  boost::split(relations, text, boost::is_any_of(","));
+  for (const std::string& relation : relations) {
+    const std::size_t equals = relation.find(" = ");
+    formulas.push_back(
+        math(mathml(symbolic::Expression(relation.substr(0, equals)) == symbolic::Expression(relation.substr(equals + 3)))));
+  }
+  return fmt::format("{}", fmt::join(formulas, ", "));
+}
+
 std::string union_html(const SetView& view) {
   std::string list;
   for (const result::Result& part : view.result.parts) {
-    const std::size_t equals = part.condition.rfind(" = ");
     const std::string name = symbolic::html_text(part.part);
     list += view.set->of_requirements ? "<li>" + name + "</li>"
-            : equals == std::string::npos
-                ? "<li>" + name + ": singular, with a kernel vector of its own</li>"
-                : fmt::format("<li>{}<span class=\"source\">{}</span></li>",
-                              math(mathml(symbolic::Expression(part.condition.substr(0, equals)) ==
-                                          symbolic::Expression(part.condition.substr(equals + 3)))),
-                              part.part == part.condition ? "" : name);
+            : part.condition.empty()  ? "<li>" + name + ": singular, with a kernel vector of its own</li>"
+                                      : fmt::format("<li>{}<span class=\"source\">{}</span></li>",
+                                                    relations_html(part.condition), part.part == part.condition ? "" : name);
   }
   return fmt::format(
       "<details><summary>{}: the union of {} parts</summary><p>The assembly constraints and one of these {}:</p><div "

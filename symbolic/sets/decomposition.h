@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "corank/core/ended.h"
+#include "corank/symbolic/sets/double_stratum.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::symbolic {
@@ -27,10 +28,13 @@ struct Component {
   std::optional<ExpressionMatrix> block{};  ///< with a kernel vector: more than three rows whose determinant is no product
   /// In place of Φ(q) = 0, where some coordinates are left out (set_parts.h).
   std::shared_ptr<const TrigonometricSystem> factor{};
-  std::vector<std::string> joints{};  ///< of such a part: the coordinates that give all others (free_coordinates.h)
+  std::vector<std::string> joints{};       ///< of such a part: the coordinates that give all others (free_coordinates.h)
+  std::optional<DoubleStratum> stratum{};  ///< where the condition vanishes doubly: the part is that, or the rest
+  bool is_rest = false;                    ///< of such a part
 
   /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.
   std::string relation() const {
+    if (stratum && !is_rest) return stratum->text();
     return dependent_angle ? dependent_angle->text() : condition ? condition->text() + " = 0" : "";
   }
   friend bool operator==(const Component& a, const Component& b) {

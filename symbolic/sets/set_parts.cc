@@ -43,14 +43,30 @@ bool leave_out_coordinates(const FreeCoordinates& free, std::vector<Component>& 
   return !parts.empty();
 }
 
+// Each part of which some is double as two: that, and the rest.
+std::vector<Component> split(const Mechanism& mechanism, std::vector<Component> parts, const Ended& ended) {
+  std::vector<Component> result;
+  for (Component& part : parts) {
+    if (part.condition && !part.factor) part.stratum = double_stratum(mechanism, *part.condition, ended);
+    if (part.stratum) {
+      result.push_back(part);
+      result.back().name = part.stratum->text();
+      part.is_rest = true;
+      part.name += ", elsewhere";
+    }
+    result.push_back(std::move(part));
+  }
+  return result;
+}
+
 // Of an arm with a large set in its joints, if that can be done.
 std::vector<Component> components(const Mechanism& mechanism, SingularitySet set, const Ended& ended,
                                   const std::optional<FreeCoordinates>* known) {
   std::vector<Component> parts = decompose(mechanism, kernel_question(mechanism, set), ended);
   const std::optional<FreeCoordinates> free = known != nullptr ? *known : free_coordinates(mechanism);
-  if (!free || !is_large(*free)) return parts;
   std::vector<Component> in_joints = parts;
-  return leave_out_coordinates(*free, in_joints) ? in_joints : parts;
+  if (free && is_large(*free) && leave_out_coordinates(*free, in_joints)) return in_joints;
+  return split(mechanism, std::move(parts), ended);
 }
 
 }  // namespace
@@ -100,7 +116,12 @@ TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales,
   if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {
     set_at_limits(*limits, system);
   } else if (component) {
-    add_condition(*component, system);
+    if (component->stratum && !component->is_rest) {
+      put_on(*component->stratum, mechanism_, system);
+    } else {
+      add_condition(*component, system);
+      if (component->stratum) put_beside(*component->stratum, mechanism_, system);
+    }
   }
   return system;
 }

@@ -19,6 +19,7 @@
 #include "corank/study/model.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/determinant_factors.h"
+#include "corank/tests/study/samples.h"
 
 namespace corank::study {
 namespace {
@@ -27,59 +28,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using std::numbers::pi;
 using symbolic::SingularitySet;
+using test::names_of;
+using test::sample;
+using test::value_of;
 using testing::ElementsAre;
-
-double value_of(const Polynomial& f, const VectorXd& x) {
-  double sum = 0;
-  for (const Monomial& m : f.monomials) {
-    double product = m.enclosure.mid();
-    for (const Factor& factor : m.factors) product *= std::pow(x[factor.variable], factor.power);
-    sum += product;
-  }
-  return sum;
-}
-
-// By the variables that occur in it alone: there are many others.
-void add_derivatives(const Polynomial& f, const VectorXd& x, MatrixXd& jacobian, Eigen::Index row) {
-  for (const Monomial& m : f.monomials)
-    for (const Factor& by : m.factors) {
-      double product = m.enclosure.mid();
-      for (const Factor& factor : m.factors)
-        product *= &factor == &by ? factor.power * std::pow(x[factor.variable], factor.power - 1)
-                                  : std::pow(x[factor.variable], factor.power);
-      jacobian(row, by.variable) += product;
-    }
-}
-
-// A solution near a random start, by Gauss–Newton steps; nothing where these do not converge inside the domain.
-std::optional<VectorXd> sample(const System& system, std::mt19937_64& random) {
-  const auto n = static_cast<Eigen::Index>(system.variables.size()), m = static_cast<Eigen::Index>(system.equations.size());
-  VectorXd x(n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const Interval& domain = system.variables[static_cast<std::size_t>(j)].domain;
-    x[j] = std::uniform_real_distribution<>(domain.lo(), domain.hi())(random);
-  }
-  for (int step = 0; step < 60; ++step) {
-    VectorXd f(m);
-    MatrixXd jacobian = MatrixXd::Zero(m, n);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const Polynomial& equation = system.equations[static_cast<std::size_t>(i)];
-      f[i] = value_of(equation, x);
-      add_derivatives(equation, x, jacobian, i);
-    }
-    if (f.lpNorm<Eigen::Infinity>() < 1e-11) {
-      for (Eigen::Index j = 0; j < n; ++j)
-        if (!system.variables[static_cast<std::size_t>(j)].domain.contains(x[j])) return std::nullopt;
-      for (const Polynomial& g : system.inequalities)
-        if (value_of(g, x) < 0) return std::nullopt;
-      return x;
-    }
-    const VectorXd change = least_squares(jacobian, f, 1e-9).x;
-    if (!(change.norm() < 1e3)) return std::nullopt;
-    x -= change;
-  }
-  return std::nullopt;
-}
 
 symbolic::Mechanism model_named(const std::string& name) {
   return read_model(CORANK_SOURCE_DIR "/models/" + name + ".cuik").mechanism;
@@ -177,8 +129,6 @@ TEST(SetPartsOf, MechanismsWithoutSuchSingularitiesAreNone) {
   EXPECT_TRUE(symbolic::decompose(legs.model, kernel).empty());  // legs have lengths above 0
 }
 
-std::vector<std::string> names_of(const std::vector<Question>& parts);
-
 TEST(SetPartsOf, ArmsAreConditionsOnTheirJoints) {
   const auto conditions = [](const std::string& model) {
     std::vector<std::string> list;
@@ -256,12 +206,6 @@ TEST(SetPartsOf, WhatIsNotFactoredInTimeStaysWhole) {
   const Question arm{.model = model_named("serial/puma_560"), .set = SingularitySet::inverse, .in_parts = true};
   EXPECT_EQ(parts_of(arm).size(), 3u);
   EXPECT_THAT(names_of(parts_of(arm, [] { return true; })), ElementsAre("whole"));
-}
-
-std::vector<std::string> names_of(const std::vector<Question>& parts) {
-  std::vector<std::string> names;
-  for (const Question& part : parts) names.push_back(part.part ? text(*part.part) : "whole");
-  return names;
 }
 
 TEST(SetPartsOf, SurfacesByDefaultAndOfCurvesWhereTheyAreAskedFor) {
