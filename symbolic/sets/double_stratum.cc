@@ -7,9 +7,9 @@
 #include <map>
 
 #include "corank/core/rounding.h"
+#include "corank/symbolic/algebra/exact_algebra.h"
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/algebra/expression_range.h"
-#include "corank/symbolic/algebra/ginac_bridge.h"
 #include "corank/symbolic/algebra/ginac_lock.h"
 #include "corank/symbolic/velocity/exact_matrix.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
@@ -41,71 +41,40 @@ std::optional<GiNaC::ex> ratio(const GiNaC::ex& f, const GiNaC::ex& g) {
   return (f - q * g).expand().is_zero() ? std::optional(q) : std::nullopt;
 }
 
-// A mechanism's expressions, constants put in, and more unknowns.
-class Algebra {
- public:
-  explicit Algebra(const Mechanism& mechanism, const std::vector<std::string>& unknowns = {})
-      : mechanism_(mechanism), bridge_(names_of(mechanism.constants()), all_names(mechanism, unknowns)) {
-    for (const Constant& c : mechanism.constants())
-      constants_[bridge_.symbol(c.name)] = bridge_.to_ginac(c.value, c.where).subs(constants_);
+// The factors of a polynomial; none where they are not found.
+std::vector<GiNaC::ex> factors_of(const Mechanism& mechanism, const ExactAlgebra& algebra, const GiNaC::ex& e,
+                                  const Ended& ended) {
+  ExpressionMatrix one;
+  one.columns = {"f"};
+  one.rows = {{algebra.expression(e)}};
+  std::vector<GiNaC::ex> result;
+  try {
+    const ExactMatrix matrix(mechanism, one);
+    const auto list = matrix.determinant().factors(ended);
+    for (const RationalPolynomial& f : list.value_or(std::vector<RationalPolynomial>{}))
+      result.push_back(algebra.value(matrix.expression(f)));
+  } catch (const ModelError&) {  // no polynomial
   }
+  return result;
+}
 
-  GiNaC::ex value(const Expression& e) const { return bridge_.to_ginac(e, {}).subs(constants_).expand(); }
-  const GiNaC::symbol& symbol(const std::string& name) const { return bridge_.symbol(name); }
-  Expression expression(const GiNaC::ex& e) const { return bridge_.to_expression(e); }
-
-  // Those of a polynomial; none where they are not found.
-  std::vector<GiNaC::ex> factors(const GiNaC::ex& e, const Ended& ended) const {
-    ExpressionMatrix one;
-    one.columns = {"f"};
-    one.rows = {{expression(e)}};
-    std::vector<GiNaC::ex> result;
-    try {
-      const ExactMatrix matrix(mechanism_, one);
-      const auto list = matrix.determinant().factors(ended);
-      for (const RationalPolynomial& f : list.value_or(std::vector<RationalPolynomial>{}))
-        result.push_back(value(matrix.expression(f)));
-    } catch (const ModelError&) {  // no polynomial
-    }
-    return result;
+// Of an affine function of lengths with ranges: the first of them, and what it is where the function is 0.
+std::optional<Relation> solved(const Mechanism& mechanism, const ExactAlgebra& algebra, const GiNaC::ex& e) {
+  const Coordinate* first = nullptr;
+  GiNaC::ex rest = e;
+  for (const Coordinate& c : mechanism.coordinates()) {
+    const GiNaC::ex x = algebra.symbol(c.name);
+    if (!rest.has(x)) continue;
+    const bool is_affine = c.kind == CoordinateKind::length && rest.is_polynomial(x) && rest.degree(x) == 1 &&
+                           GiNaC::is_a<GiNaC::numeric>(rest.coeff(x, 1));
+    if (!is_affine || !c.has_range) return std::nullopt;
+    rest = rest.coeff(x, 0);
+    if (first == nullptr && !is_fixed(c)) first = &c;
   }
-
-  // Of an affine function of lengths: the first of them, and what it is where the function is 0.
-  std::optional<Relation> solved(const GiNaC::ex& e) const {
-    const Coordinate* first = nullptr;
-    GiNaC::ex rest = e;
-    for (const Coordinate& c : mechanism_.coordinates()) {
-      const GiNaC::ex x = bridge_.symbol(c.name);
-      if (!rest.has(x)) continue;
-      const bool is_affine = c.kind == CoordinateKind::length && rest.is_polynomial(x) && rest.degree(x) == 1 &&
-                             GiNaC::is_a<GiNaC::numeric>(rest.coeff(x, 1));
-      if (!is_affine || !c.has_range) return std::nullopt;
-      rest = rest.coeff(x, 0);
-      if (first == nullptr && !is_fixed(c)) first = &c;
-    }
-    if (first == nullptr || !GiNaC::is_a<GiNaC::numeric>(rest)) return std::nullopt;
-    const GiNaC::ex x = bridge_.symbol(first->name);
-    return Expression::symbol(first->name) == expression((x - e / e.coeff(x, 1)).expand());
-  }
-
-  // Each relation's coordinate as its value.
-  GiNaC::exmap at(const DoubleStratum& stratum) const {
-    GiNaC::exmap values;
-    for (const Relation& r : stratum.relations) values[symbol(r.lhs.name())] = value(r.rhs);
-    return values;
-  }
-
- private:
-  static std::vector<std::string> all_names(const Mechanism& mechanism, const std::vector<std::string>& unknowns) {
-    std::vector<std::string> names = names_of(mechanism.coordinates());
-    names.insert(names.end(), unknowns.begin(), unknowns.end());
-    return names;
-  }
-
-  const Mechanism& mechanism_;
-  const GinacBridge bridge_;
-  GiNaC::exmap constants_;
-};
+  if (first == nullptr || !GiNaC::is_a<GiNaC::numeric>(rest)) return std::nullopt;
+  const GiNaC::ex x = algebra.symbol(first->name);
+  return Expression::symbol(first->name) == algebra.expression((x - e / e.coeff(x, 1)).expand());
+}
 
 // The equations as representatives g and as h = F − q g, which vanish at the stratum.
 struct Sorted {
@@ -113,9 +82,10 @@ struct Sorted {
   std::map<std::size_t, GiNaC::ex> vanishing;
 };
 
-Sorted sorted(const Algebra& algebra, const DoubleStratum& stratum,
+Sorted sorted(const ExactAlgebra& algebra, const DoubleStratum& stratum,
               const std::vector<TrigonometricSystem::Equation>& equations) {
-  const GiNaC::exmap at = algebra.at(stratum);
+  GiNaC::exmap at;
+  for (const Relation& r : stratum.relations) at[algebra.symbol(r.lhs.name())] = algebra.value(r.rhs);
   Sorted result;
   std::vector<GiNaC::ex> wholes, there;
   for (std::size_t i = 0; i < equations.size(); ++i) {
@@ -164,7 +134,7 @@ std::optional<int> farthest(const DoubleStratum& stratum, const std::vector<Coor
 // Looks for relations at which all of some polynomials vanish.
 class Search {
  public:
-  Search(const Mechanism& mechanism, const Algebra& algebra, const Ended& ended)
+  Search(const Mechanism& mechanism, const ExactAlgebra& algebra, const Ended& ended)
       : mechanism_(mechanism), algebra_(algebra), ended_(ended) {}
 
   std::vector<DoubleStratum> run(const Expression& f) {
@@ -189,8 +159,8 @@ class Search {
       return std::pair(parts_of<GiNaC::add>(e).size(), algebra_.expression(e).text());
     };
     std::vector<Relation> relations;
-    for (const GiNaC::ex& factor : algebra_.factors(std::ranges::min(polynomials, {}, rank), ended_))
-      if (auto relation = algebra_.solved(factor)) relations.push_back(std::move(*relation));
+    for (const GiNaC::ex& factor : factors_of(mechanism_, algebra_, std::ranges::min(polynomials, {}, rank), ended_))
+      if (auto relation = solved(mechanism_, algebra_, factor)) relations.push_back(std::move(*relation));
     std::ranges::sort(relations, {}, &Relation::text);  // GiNaC's order is another in each process
     for (const Relation& relation : relations) {
       const GiNaC::exmap put{{algebra_.symbol(relation.lhs.name()), algebra_.value(relation.rhs)}};
@@ -205,7 +175,7 @@ class Search {
   }
 
   const Mechanism& mechanism_;
-  const Algebra& algebra_;
+  const ExactAlgebra& algebra_;
   const Ended& ended_;
   int branches_ = 0;
   std::vector<DoubleStratum> found_;
@@ -221,10 +191,8 @@ std::string DoubleStratum::text() const {
 
 std::optional<DoubleStratum> double_stratum(const Mechanism& mechanism, const Expression& f, const Ended& ended) {
   const std::vector<TrigonometricSystem::Equation> phi = plain_system(mechanism).equations;
-  const auto unknown = std::ranges::count_if(mechanism.coordinates(), [](const Coordinate& c) { return !is_fixed(c); });
-  if (unknown < static_cast<std::ptrdiff_t>(phi.size()) + 3) return std::nullopt;
   const GinacLock lock;
-  const Algebra algebra(mechanism);
+  const ExactAlgebra algebra(mechanism);
   std::vector<DoubleStratum> found = Search(mechanism, algebra, ended).run(f);
   std::ranges::sort(found, {}, &DoubleStratum::text);
   for (const DoubleStratum& stratum : found)
@@ -237,7 +205,7 @@ std::optional<DoubleStratum> double_stratum(const Mechanism& mechanism, const Ex
 void put_on(const DoubleStratum& stratum, const Mechanism& mechanism, TrigonometricSystem& system) {
   const GinacLock lock;
   std::vector<TrigonometricSystem::Equation> equations;
-  for (const std::size_t i : sorted(Algebra(mechanism), stratum, system.equations).representatives)
+  for (const std::size_t i : sorted(ExactAlgebra(mechanism), stratum, system.equations).representatives)
     equations.push_back(system.equations[i]);
   for (const Relation& r : stratum.relations) equations.push_back({r, stratum.text(), model_place(mechanism), true});
   system.equations = std::move(equations);
@@ -251,7 +219,7 @@ void put_beside(const DoubleStratum& stratum, const Mechanism& mechanism, Trigon
   std::vector<std::string> unknowns = names;
   unknowns.push_back(rho);
   const GinacLock lock;
-  const Algebra algebra(mechanism, unknowns);
+  const ExactAlgebra algebra(mechanism, unknowns);
   std::vector<TrigonometricSystem::Equation> equations;
   GiNaC::exmap along;
   for (std::size_t k = 0; k < eta.size(); ++k) {

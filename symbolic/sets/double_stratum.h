@@ -29,7 +29,7 @@ struct DoubleStratum {
   bool operator==(const DoubleStratum& other) const { return text() == other.text(); }
 };
 
-/// Of { Φ(q) = 0, f(q) = 0 }, a set of dimension 2 or more: where f and its gradient vanish by relations of lengths, if these
+/// Of { Φ(q) = 0, f(q) = 0 }: where f and its gradient vanish by relations of lengths, if these
 /// and the representatives are as many as the equations of the set. The factors of f's derivatives give the relations.
 std::optional<DoubleStratum> double_stratum(const Mechanism& mechanism, const Expression& f, const Ended& ended = {});
 

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/free_fold.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 
 namespace corank::symbolic {
@@ -43,11 +44,19 @@ bool leave_out_coordinates(const FreeCoordinates& free, std::vector<Component>& 
   return !parts.empty();
 }
 
-// Each part of which some is double as two: that, and the rest.
-std::vector<Component> split(const Mechanism& mechanism, std::vector<Component> parts, const Ended& ended) {
+// Of a set of dimension 2 or more: parts in which links turn freely without them, and each part of which some is double as
+// two, that and the rest.
+std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Component> parts, const Ended& ended) {
+  const auto moving = std::ranges::count_if(mechanism.coordinates(), std::not_fn(is_fixed));
+  if (moving < std::ssize(residuals(mechanism)) + 3) return parts;
   std::vector<Component> result;
   for (Component& part : parts) {
-    if (part.condition && !part.factor) part.stratum = double_stratum(mechanism, *part.condition, ended);
+    if (part.dependent_angle)
+      if (auto factor = without_free_fold(mechanism, *part.dependent_angle)) {
+        part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
+        part.joints = {part.dependent_angle->other};
+      }
+    if (part.condition) part.stratum = double_stratum(mechanism, *part.condition, ended);
     if (part.stratum) {
       result.push_back(part);
       result.back().name = part.stratum->text();
@@ -66,7 +75,7 @@ std::vector<Component> components(const Mechanism& mechanism, SingularitySet set
   const std::optional<FreeCoordinates> free = known != nullptr ? *known : free_coordinates(mechanism);
   std::vector<Component> in_joints = parts;
   if (free && is_large(*free) && leave_out_coordinates(*free, in_joints)) return in_joints;
-  return split(mechanism, std::move(parts), ended);
+  return simplified(mechanism, std::move(parts), ended);
 }
 
 }  // namespace
@@ -136,8 +145,11 @@ void SetEquations::set_at_limits(const BoundaryPart& part, TrigonometricSystem& 
 
 void SetEquations::add_condition(const Component& part, TrigonometricSystem& system) const {
   const SourceLocation where{mechanism_.name(), 0, 0};
-  system.dependent_angle = part.dependent_angle;
-  if (part.dependent_angle) system.equations.push_back({part.dependent_angle->relation(), part.name, where, true, true});
+  const auto has = [&](const std::string& name) {
+    return std::ranges::find(system.coordinates, name, &Coordinate::name) != system.coordinates.end();
+  };
+  if (part.dependent_angle && has(part.dependent_angle->angle)) system.dependent_angle = part.dependent_angle;
+  if (system.dependent_angle) system.equations.push_back({part.dependent_angle->relation(), part.name, where, true, true});
   if (part.condition) system.equations.push_back({*part.condition == Expression(0), part.name, where, true});
 }
 
