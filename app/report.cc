@@ -46,17 +46,18 @@ std::vector<report::SetView> solve_all(const ReportCommand& command, const study
   std::uint64_t taken = 0;
   // After an interrupt the searches left end at once, with all of their domain pending.
   for (std::size_t i = 0; i < command.search.sets.size(); ++i) {
-    std::optional<report::SetView> view = solve_view(command.search, question, i, taken);
+    const auto write = [&](const result::Result& result) {
+      ProgressLine line;
+      files.push_back(result.set + suffix + ".h5");
+      line.show("writing " + files.back());
+      result::write_result(std::filesystem::path(command.folder) / files.back(), result,
+                           [] { return Interrupt::stop().load(); });
+    };
+    std::optional<report::SetView> view = solve_view(command.search, question, i, taken, write);
     if (!view) {
       left_out.push_back(command.search.sets[i]);
       continue;
     }
-    const result::Result& result = view->result;
-    ProgressLine line;
-    files.push_back(result.set + suffix + ".h5");
-    line.show("writing " + files.back());
-    result::write_result(std::filesystem::path(command.folder) / files.back(), result,
-                         [] { return Interrupt::stop().load(); });
     views.push_back(std::move(*view));
     taken += solve::bytes_of(views.back().result.cover, solve::kPageBytes);
   }
@@ -84,10 +85,8 @@ struct ReadView {
 
 ReadView read_one(const std::string& path) {
   auto [result, model, system] = result::read_to_show(path);
-  if (study::is_whole(result)) {
-    solve::Control control;
-    result = study::cut(result::read_result(path), {.threads = 0}, control);
-  }
+  if (study::is_whole(result))
+    result = study::cut_for_page(result::read_result(path), {.threads = 0}, report::kPageBoxes, {});
   const bool given = model.has_own_velocity_equation();
   return {path, std::move(model), report::set_view(std::move(result), std::move(system), given)};
 }
@@ -231,7 +230,8 @@ void add_report(CLI::App& program, Action& action) {
              "Folder for index.html, the results and the figures; default: MODEL-report");
   sub->footer(
       "Each search ends after 8 seconds or 200000 boxes, unless you give other limits. So the page is there within a\n"
-      "minute. It says which sets are incomplete.\n\n"
+      "minute. It says which sets are incomplete. Result files of surfaces keep proven sheets whole, unless you give\n"
+      "--sigma; the page shows them cut.\n\n"
       "Exit status: 0 done and complete, 1 bad input, 2 wrong usage, 3 incomplete (a limit or an interrupt).\n\n"
       "Example:\n  corank report models/dextar.cuik -o dextar");
   sub->callback([command, sub, &action] { action = [command, sub] { return write_report(*sub, *command); }; });

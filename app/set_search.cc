@@ -10,6 +10,7 @@
 #include "corank/report/html/page.h"
 #include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
+#include "corank/study/cut.h"
 
 namespace corank::app {
 using symbolic::SingularitySet;
@@ -84,19 +85,27 @@ std::string SetSearch::command_line(const std::string& subcommand, const Questio
 }
 
 std::optional<report::SetView> solve_view(const SetSearch& search, study::Question question, std::size_t index,
-                                          std::uint64_t taken) {
+                                          std::uint64_t taken, const std::function<void(const result::Result&)>& found) {
   const std::vector<std::string>& sets = search.sets;
   question.set = symbolic::singularity_set_from_string(sets[index]);
   if (!symbolic::definition(question.set).has_kernel()) question.corank = 1;
   solve::Options limits;
   search.limits.apply(limits);
-  solve::Control control(search.limits_beside(limits, taken));
+  const solve::Control::Limits limits_of_set = search.limits_beside(limits, taken);
+  solve::Control control(limits_of_set);
   study::Systems systems = study::systems_of(question, control, false);
   if (systems.of_parts.size() < systems.parts.size()) return std::nullopt;
-  const study::Options options{search.options(systems.of_parts.front(), *question.set), report::kPageDigits};
+  study::Options options{search.options(systems.of_parts.front(), *question.set), report::kPageDigits};
+  options.search.surfaces_whole = true;
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
   line.follow(control);
   result::Result result = study::answer(systems, options, control);
+  line.clear();
+  if (found) found(result);
+  if (study::is_whole(result)) {
+    options.search.surfaces_whole = options.search.proof = false;
+    result = study::cut_for_page(result, options.search, search.limits.max_found, limits_of_set, control.search_progress);
+  }
   System system =
       systems.parts.front().part ? result::system_of(question.model, result) : std::move(systems.of_parts.front());
   return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation(),

@@ -1,6 +1,8 @@
 // What corank report, sweep and path share: sets of a mechanism that are searched for a page, with the same options.
 #pragma once
 
+#include <functional>
+
 #include "corank/app/question.h"
 #include "corank/app/shared_options.h"
 #include "corank/report/html/set_view.h"
@@ -35,8 +37,9 @@ struct SetSearch {
 };
 
 /// Searches set `index` of those that `search` names, showing its progress; others on the page take `taken` bytes. Nothing
-/// where the set has many parts and time ran out, or a signal came, before the equations of all were derived.
+/// where the set has many parts and time ran out, or a signal came, before the equations of all were derived. `found` gets
+/// the result with its proven sheets whole, unless σ is asked for, before they are cut for the page.
 std::optional<report::SetView> solve_view(const SetSearch& search, study::Question question, std::size_t index,
-                                          std::uint64_t taken);
+                                          std::uint64_t taken, const std::function<void(const result::Result&)>& found = {});
 
 }  // namespace corank::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -71,6 +72,26 @@ result::Result cut(result::Result result, const solve::Options& options, solve::
   result::merge_parts(result);
   result::describe_in_words(model, result::system_of(model, result), result);
   return result;
+}
+
+result::Result cut_for_page(const result::Result& whole, solve::Options options, std::uint64_t most,
+                            const solve::Control::Limits& limits,
+                            const std::function<void(const solve::SearchProgress&)>& progress) {
+  constexpr double kCoarser = 2;
+  constexpr int kTries = 6;
+  if (most > 0) {
+    most = std::max<std::uint64_t>(most, whole.cover.boxes.size() / 4 * 5);
+    options.max_found = most + 1;
+  }
+  for (int tries = 0; tries < kTries; ++tries, options.coarser *= kCoarser) {
+    solve::Control control(limits);
+    control.search_progress = progress;
+    result::Result result = cut(whole, options, control);
+    const std::optional<solve::Ending> ending = control.ending();
+    const bool fits = !ending && (most == 0 || result.cover.boxes.size() <= most);
+    if (fits || (ending && ending->by == solve::Limit::interrupt)) return result;
+  }
+  return whole;
 }
 
 }  // namespace corank::study

@@ -1,6 +1,9 @@
 // Results of surfaces and solids keep their proven sheets whole (solve::Options::surfaces_whole). Who wants boxes cuts them.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
 #include "corank/result/values/result.h"
 #include "corank/solve/step/control.h"
 #include "corank/solve/step/options.h"
@@ -16,5 +19,12 @@ bool is_whole(const result::Result& result);
 /// where the equations' coefficients carry a tolerance, so that the search itself depends on σ, or where another version of
 /// corank has made the result.
 result::Result cut(result::Result result, const solve::Options& options, solve::Control& control);
+
+/// cut() for a page that shows about so many boxes, of a set with more sheets than that a quarter more than it has; 0: any
+/// number. While that, or a limit, ends the cutting, σ is made coarser, each time with the limits anew; in the end the sheets
+/// stay whole.
+result::Result cut_for_page(const result::Result& whole, solve::Options options, std::uint64_t most,
+                            const solve::Control::Limits& limits,
+                            const std::function<void(const solve::SearchProgress&)>& progress = {});
 
 }  // namespace corank::study

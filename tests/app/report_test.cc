@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -104,6 +105,19 @@ TEST(Report, TakesConstantsAndSigmas) {
   EXPECT_EQ(result::read_result(folder.file("r/cspace.h5")).cover.sigma, (Sigma{0.1, 0.1}));
   EXPECT_FALSE(std::filesystem::exists(folder.file("r/inverse.h5")));
   EXPECT_NE(read_text(folder.file("r/index.html")).find("L2 = 1"), std::string::npos);
+}
+
+TEST(Report, KeepsSheetsWholeInItsFilesAndCutsThemForThePage) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_corank(
+      {"report", model("planar/3prr"), "--sets", "inverse", "--max-found", "20000", "--proof", "-o", folder.file("r")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const result::Result whole = result::read_result(folder.file("r/inverse.h5"));
+  EXPECT_TRUE(std::isinf(whole.cover.sigma.length));
+  EXPECT_TRUE(whole.parts[0].cover.proof);
+  const json set = json::parse(script_text(read_text(folder.file("r/index.html")), "model"))["sets"][0];
+  EXPECT_GT(set["count"], whole.cover.boxes.size());
+  EXPECT_LE(set["count"], 20'000);
 }
 
 TEST(Report, OfACorankNamesItAndLeavesCSpaceAsItIs) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <set>
 
 #include "corank/study/answer.h"
@@ -40,6 +41,22 @@ TEST(Cut, IsTheStageOfTheSearchInAllParts) {
   EXPECT_GT(cut.cover.boxes.size(), whole.cover.boxes.size());
   EXPECT_EQ(stages, std::set{solve::Stage::search});
   EXPECT_EQ(cut.stopped, "");
+}
+
+TEST(Cut, ForAPageHasAsManyBoxesAsItShowsInAllParts) {
+  const result::Result whole = whole_sheets();
+  std::size_t before = 0;
+  for (const std::size_t most : {3000u, 20'000u, 100'000u}) {
+    const result::Result cut = cut_for_page(whole, {}, most, {});
+    EXPECT_LE(cut.cover.boxes.size(), most);
+    EXPECT_GT(cut.cover.boxes.size(), std::max(before, whole.cover.boxes.size()));
+    EXPECT_TRUE(cut.cover.complete());
+    EXPECT_EQ(cut.stopped, "");
+    before = cut.cover.boxes.size();
+  }
+  const std::atomic<bool> interrupted = true;
+  EXPECT_THAT(cut_for_page(whole, {}, 20'000, {.stop = &interrupted}).stopped, testing::StartsWith("an interrupt"));
+  EXPECT_EQ(cut_for_page(whole, {}, 0, {.time = 1e-6}).cover.boxes.size(), whole.cover.boxes.size()) << "no time to cut";
 }
 
 }  // namespace
