@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 
 #include "corank/certify/algebraic_number.h"
+#include "corank/core/box_tree.h"
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/tallies.h"
 #include "corank/result/values/words.h"
@@ -233,10 +235,23 @@ std::string motions_text(const Result& result) {
   return text;
 }
 
+// How many groups of boxes are undecided for this reason, those of a group nearer to each other than they are wide.
+std::size_t places_of(Reason reason, const Cover& cover) {
+  std::vector<Box> around;
+  for (const CoverBox& box : cover.boxes)
+    if (box.verdict == Verdict::undecided && box.reason == reason)
+      for (Interval& side : around.emplace_back(box.box))
+        side = Interval(side.lo() - side.width(), side.hi() + side.width());
+  return 1 + std::ranges::max(box_tree(around, std::identity()).groups(0, {}));
+}
+
 std::string reasons_text(const Result& result) {
   std::string text;
-  for (const auto& [reason, n] : undecided_reasons(result.cover))
-    text += fmt::format("  undecided, {}: {}\n", n, in_words(reason, result));
+  for (const auto& [reason, n] : undecided_reasons(result.cover)) {
+    const std::size_t places = reason == Reason::degenerate_point ? places_of(reason, result.cover) : n;
+    text += fmt::format("  undecided, {}{}: {}\n", n, places < n ? fmt::format(" in {}", counted(places, "place")) : "",
+                        in_words(reason, result));
+  }
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "corank/result/files/result_file.h"
 #include "corank/result/files/verification.h"
+#include "corank/result/values/summary.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
 #include "corank/tests/cover_lookup.h"
@@ -80,6 +81,17 @@ TEST(DoubleStratum, AndTheRestLoseNothing) {
     }
     EXPECT_GE(found, 20) << seed;
     EXPECT_EQ(lost, 0) << seed;
+  }
+}
+
+// Where the three rods are in line with a slide.
+TEST(DoubleStratum, LeavesThreePlacesUndecided) {
+  const result::Result result = answer(Orthoglide{}.question(), {});
+  EXPECT_THAT(to_table(result), testing::ContainsRegex("undecided, [0-9]+ in 3 places: next to a degenerate solution"));
+  for (const CoverBox& box : result.cover.boxes) {
+    if (box.verdict != Verdict::undecided) continue;
+    const auto near = [&](int d, int x) { return box.box[d].mid() > 1.9 && box.box[x].mid() > 0.9; };
+    EXPECT_TRUE(near(0, 3) || near(1, 4) || near(2, 5));
   }
 }
 
