@@ -235,15 +235,7 @@ std::string ExactCheck::holds() const {
   for (const Polynomial& g : system_.inequalities) {
     if (!is_known(g)) continue;
     const auto v = value(g);
-    Enclosure bound;
-    for (const Monomial& m : g.monomials) {
-      Enclosure term(m.coefficient);
-      for (const Factor& x : m.factors) {
-        if (x.function != Function::identity) return "an inequality has a sine or cosine";
-        term *= power(coordinate(x.variable), x.power);
-      }
-      bound += term;
-    }
+    const Enclosure bound = Row(g, system_.size()).value(coordinates_);
     if (!(v && is_nonnegative(*v)) && !bound.is_nonnegative())
       return "an inequality (" + g.source + ") is not shown to hold there";
   }
