@@ -8,6 +8,7 @@
 #include "corank/check/distance.h"
 #include "corank/check/inertia.h"
 #include "corank/check/krawczyk.h"
+#include "corank/core/box.h"
 #include "corank/core/dense.h"
 
 namespace corank::check {
@@ -79,9 +80,7 @@ class VelocityCheck {
     all_rows_ = r == rows_;
     const Eigen::MatrixXd y = inverse(middle(p.rows, p.columns));
     if (!y.allFinite()) return false;
-    std::vector<int> free;
-    for (int j = 0; j < static_cast<int>(columns_); ++j)
-      if (std::ranges::find(p.columns, j) == p.columns.end()) free.push_back(j);
+    const std::vector<int> free = all_but(p.columns, static_cast<int>(columns_));
     // Y·A in one column, row i.
     const auto preconditioned = [&](std::size_t i, int j) {
       Form sum = zero();
