@@ -111,24 +111,19 @@ std::optional<Box> MeetingTest::solution_in(const Box& box, const Box& near) {
 
 Sheet MeetingTest::sheet_about(const Box& near, double radius) {
   CORANK_CHECK(UpwardRounding::active());
-  std::vector<double> c;
-  Box around;
+  std::vector<double> c = midpoint(near);
   const std::vector<double>& scales = system_.scales();
-  for (std::size_t j = 0; j < near.size(); ++j) {
-    c.push_back(near[j].mid());
-    around.emplace_back(c[j] - scales[j], c[j] + scales[j]);
-  }
-  if (!project(around, c)) return {};
-  std::vector<Interval> x;
-  for (std::size_t j = 0; j < c.size(); ++j) x.emplace_back(c[j] - radius * scales[j], c[j] + radius * scales[j]);
-  return prove(x, c, scales);
+  const auto around = [&](double reach) {
+    Box box;
+    for (std::size_t j = 0; j < c.size(); ++j) box.emplace_back(c[j] - reach * scales[j], c[j] + reach * scales[j]);
+    return box;
+  };
+  return project(around(1), c) ? prove(around(radius), c, scales) : Sheet();
 }
 
 std::optional<Sheet> MeetingTest::common(const Box& a, const Box& b, const Box& near) {
   Box common = a;
-  for (std::size_t j = 0; j < common.size(); ++j)
-    if (!common[j].intersect(b[j])) return std::nullopt;
-  return sheet_in(common, near);
+  return intersect(common, b) ? sheet_in(common, near) : std::nullopt;
 }
 
 }  // namespace corank::certify

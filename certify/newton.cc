@@ -37,15 +37,19 @@ void multiply_residual(const CompiledSystem& system, const Preconditioner& p, Ne
   w.matrix.multiply(w.values, w.residual);
 }
 
+void set_offsets(std::span<const Interval> x, NewtonBuffers& w) {
+  w.offset.resize(w.center.size());
+  for (std::size_t j = 0; j < w.offset.size(); ++j) w.offset[j] = x[j] - Interval(w.center[j]);
+}
+
 bool bounded(const std::vector<Interval>& x) {
   return std::ranges::all_of(x, [](const Interval& side) { return side.is_bounded(); });
 }
 
 // The rows Y·F(c) + Y·S·(x − c) ∋ 0 of the matrix, each solved for its dependent variable.
 NewtonOutcome solve_rows(const Preconditioner& p, std::span<Interval> x, NewtonBuffers& w) {
-  const int r = p.rank(), n = w.matrix.columns();
-  w.offset.resize(n);
-  for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
+  const int r = p.rank();
+  set_offsets(x, w);
   w.image = w.residual;
   w.matrix.accumulate(w.offset.data(), p.dependent, SlopeMatrix::Diagonal::zero, w.image);
   NewtonOutcome outcome;
@@ -180,12 +184,11 @@ namespace {
 
 // image := Krawczyk image K over the box x about w.center; w.residual holds Y·F(c), the matrix Y. False: no bounded image.
 bool krawczyk(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x, NewtonBuffers& w) {
-  const int r = p.rank(), n = system.variables();
+  const int r = p.rank();
   w.slope.resize(system.entries());
   system.slopes(x, w.center.data(), w.slope);
   if (!w.matrix.assign_product(system, p.equations, w.slope)) return false;
-  w.offset.resize(n);
-  for (int j = 0; j < n; ++j) w.offset[j] = x[j] - Interval(w.center[j]);
+  set_offsets(x, w);
   // K = c_D − (Y·F(c) + (Y·S_D − I)(Z − c_D) + Y·S_F (X_F − c_F))
   w.image = w.residual;
   w.matrix.accumulate(w.offset.data(), p.dependent, SlopeMatrix::Diagonal::minus_one, w.image);

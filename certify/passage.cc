@@ -8,6 +8,7 @@
 #include "corank/certify/numeric.h"
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/projection.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
@@ -166,8 +167,8 @@ bool PassageTest::holds(const Claim& claim, Box box, int halvings) const {
 
 // What the form looks like at the midpoint, and a side for all of the box.
 PassageTest::Claim PassageTest::guess(const Box& box) const {
-  Box middle_box;
-  for (const Interval& side : box) middle_box.emplace_back(side.mid());
+  const std::vector<double> middle_point = midpoint(box);
+  const Box middle_box(middle_point.begin(), middle_point.end());
   Claim claim{Passage::unproven, 0, {}};
   Basis basis;
   if (!choose(middle_box, basis)) return claim;

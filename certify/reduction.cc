@@ -266,21 +266,6 @@ std::vector<Interval> Reduction::lift(const std::vector<Interval>& sides) const 
   return box;
 }
 
-Reduction apply(const System& system, const std::vector<ReductionStep>& steps) {
-  Rewriting rewriting(system, system.equations.size() <= system.variables.size());
-  const UpwardRounding rounding;
-  for (const ReductionStep& step : steps)
-    if (const auto* sum = std::get_if<SumOfEquations>(&step)) {
-      rewriting.apply(*sum);
-    } else {
-      const auto* elimination = std::get_if<Elimination>(&step);
-      CORANK_CHECK(elimination);
-      rewriting.apply(*elimination);
-    }
-  if (rewriting.drop_identities()) rewriting.drop_repeated();
-  return rewriting.result();
-}
-
 Polynomial implied_equation(const System& system, const ImpliedEquation& of) {
   Polynomial h;
   for (const ImpliedEquation::Multiple& part : of.parts) {

@@ -115,10 +115,6 @@ class Rewriting {
   bool consistent_ = true;
 };
 
-/// The system after these steps, without what then holds identically or repeats another. No step may be an implied equation.
-/// Enclosures carry the tolerance unless equations outnumber variables, as in a checker.
-Reduction apply(const System& system, const std::vector<ReductionStep>& steps);
-
 /// An equation that follows from others, h = Σ c·p·f with rational numbers c (factors), products p of powers of variables,
 /// and equations f of the reduced system: `of` names those of `system` by their indices, then its implied ones; variables
 /// are `system`'s. Requires UpwardRounding::active().

@@ -106,8 +106,8 @@ std::optional<Box> TubeProver::node(const std::vector<double>& rows, const std::
 }
 
 std::optional<Box> TubeProver::piece(const TubeNode& a, const TubeNode& b) {
-  std::vector<Interval> x;
-  for (std::size_t j = 0; j < a.box.size(); ++j) x.push_back(Interval::hull(a.box[j], b.box[j]));
+  Box x = a.box;
+  include(x, b.box);
   x.emplace_back(0.0, 1.0);
   // Proven in a box with room to spare, for whoever proves it again with another Y. A side that is as wide as the others
   // make it follows them one step later.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "corank/core/closest_points.h"
 
@@ -108,14 +107,11 @@ Standing standing(const DistanceTest& test, const FormOfVariable& form, const Si
 }
 
 DistanceCheck::DistanceCheck(const System& system, const KeptDistances& distances, const StopFlag& stop)
-    : stop_(stop), tests_(distances.tests), lengths_(domain_lengths(system)) {
-  std::set<int> arguments;
-  for (const Polynomial& f : distances.functions) {
-    functions_.emplace_back(f, system.size());
-    arguments.insert(functions_.back().columns().begin(), functions_.back().columns().end());
-  }
-  arguments_.assign(arguments.begin(), arguments.end());
-}
+    : stop_(stop),
+      tests_(distances.tests),
+      functions_(rows_of(distances.functions, system.size())),
+      arguments_(variables_of({functions_})),
+      lengths_(domain_lengths(system)) {}
 
 bool DistanceCheck::holds(const Sides& box) const {
   constexpr int kMostParts = 256;

@@ -67,12 +67,6 @@ bool Enclosure::intersect(const Enclosure& x) {
   return true;
 }
 
-Enclosure Enclosure::hull(const Enclosure& x, const Enclosure& y) {
-  Enclosure result;
-  mpfi_union(result.x_, x.x_, y.x_);
-  return result;
-}
-
 Enclosure Enclosure::lower_end() const {
   Enclosure end;
   mpfi_set_fr(end.x_, x_.lower());
@@ -87,11 +81,7 @@ Enclosure Enclosure::upper_end() const {
 Enclosure power(const Enclosure& x, int p) {
   CORANK_CHECK(p >= 0);
   if (p == 1) return x;
-  Enclosure result;
-  if (p == 2) {
-    mpfi_sqr(result.x_, x.x_);
-    return result;
-  }
+  if (p == 2) return Enclosure::made(mpfi_sqr, x);
   // Of an even power the range is that of the square's power, of an odd one that of the ends: monotone.
   if (p % 2 == 0) {
     const Enclosure square = power(x, 2);
@@ -123,37 +113,28 @@ std::optional<Enclosure> hull_of(const std::optional<Enclosure>& a, const std::o
 
 Enclosure sine(const Enclosure& x) {
   if (!(x.mag() <= kLargestArgument)) return {-1, 1};
-  Enclosure result;
-  mpfi_sin(result.x_, x.x_);
-  return result;
+  return Enclosure::made(mpfi_sin, x);
 }
 Enclosure cosine(const Enclosure& x) {
   if (!(x.mag() <= kLargestArgument)) return {-1, 1};
-  Enclosure result;
-  mpfi_cos(result.x_, x.x_);
-  return result;
+  return Enclosure::made(mpfi_cos, x);
 }
 
 Enclosure quotient(const Enclosure& x, const Enclosure& y) {
   CORANK_CHECK(!y.has_zero());
-  Enclosure result;
-  mpfi_div(result.x_, x.x_, y.x_);
-  return result;
+  return Enclosure::made(mpfi_div, x, y);
 }
 
 Enclosure square_root(const Enclosure& x) {
   CORANK_CHECK(x.may_be_nonnegative());
-  Enclosure part = x, result;
+  Enclosure part = x;
   part.intersect(Enclosure(0, kInfinity));
-  mpfi_sqrt(result.x_, part.x_);
-  return result;
+  return Enclosure::made(mpfi_sqrt, part);
 }
 
 Enclosure arc_cosine(const Enclosure& x) {
   CORANK_CHECK(x.inside(Enclosure(-1, 1)));
-  Enclosure result;
-  mpfi_acos(result.x_, x.x_);
-  return result;
+  return Enclosure::made(mpfi_acos, x);
 }
 
 std::optional<Enclosure> divide(const Enclosure& num, const Enclosure& den, const Enclosure& within) {

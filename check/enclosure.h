@@ -68,7 +68,7 @@ class Enclosure {
   /// this := this ∩ x; false, and unchanged, where that is empty.
   bool intersect(const Enclosure& x);
   bool intersect(const std::optional<Enclosure>& x) { return x && intersect(*x); }
-  static Enclosure hull(const Enclosure& x, const Enclosure& y);
+  static Enclosure hull(const Enclosure& x, const Enclosure& y) { return made(mpfi_union, x, y); }
   /// The smallest and the greatest number.
   Enclosure lower_end() const;
   Enclosure upper_end() const;
@@ -82,9 +82,9 @@ class Enclosure {
 
  private:
   explicit Enclosure(Mpfi x) : x_(std::move(x)) {}
-  static Enclosure made(int operation(mpfi_ptr, mpfi_srcptr, mpfi_srcptr), const Enclosure& x, const Enclosure& y) {
+  static Enclosure made(auto operation, const auto&... x) {
     Mpfi result(kBits);
-    operation(result, x.x_, y.x_);
+    operation(result, x.x_...);
     return Enclosure(std::move(result));
   }
 

@@ -87,28 +87,16 @@ std::optional<int> sign_at(const Enclosures& f, const ExactNumber& x) {
 bool is_crossed_once(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper, const StopFlag& stop) {
   constexpr int kMostPartsOfRoot = 200;
   const Enclosures f = enclosures(p), slope = enclosures(derivative(p));
-  std::vector<Enclosure> open{Enclosure::hull(Enclosure(lower), Enclosure(upper))};
-  int sign = 0;
-  for (int parts = 0; !open.empty(); ++parts) {
-    stop.poll();
-    const Enclosure x = open.back();
-    open.pop_back();
-    if (const Enclosure value = at(f, x); value.is_negative() || value.is_positive()) continue;
-    const Enclosure steepness = at(slope, x);
-    if (steepness.is_negative() || steepness.is_positive()) {
-      const int here = steepness.is_negative() ? -1 : 1;
-      if (sign == -here) return false;
-      sign = here;
-      continue;
-    }
-    const double middle = x.mid();
-    if (parts > kMostPartsOfRoot || !(x.lo() < middle && middle < x.hi())) return false;
-    for (const Enclosure& half : {Enclosure(x.lo(), middle), Enclosure(middle, x.hi())}) {
-      Enclosure part = x;
-      if (part.intersect(half)) open.push_back(part);
-    }
-  }
-  return true;
+  bool rises = false, falls = false;
+  const auto is_known = [&](const Sides& part) {
+    if (!at(f, part[0]).has_zero()) return true;
+    const Enclosure steepness = at(slope, part[0]);
+    rises = rises || steepness.is_positive();
+    falls = falls || steepness.is_negative();
+    return !steepness.has_zero();
+  };
+  const Enclosure all = Enclosure::hull(Enclosure(lower), Enclosure(upper));
+  return shown_in_parts({all}, {0}, {1.0}, kMostPartsOfRoot, stop, is_known) && !(rises && falls);
 }
 
 int roots_between(const RationalPolynomial& p, const ExactNumber& lower, const ExactNumber& upper, const StopFlag& stop) {
@@ -235,15 +223,7 @@ std::string ExactCheck::holds() const {
   for (const Polynomial& g : system_.inequalities) {
     if (!is_known(g)) continue;
     const auto v = value(g);
-    Enclosure bound;
-    for (const Monomial& m : g.monomials) {
-      Enclosure term(m.coefficient);
-      for (const Factor& x : m.factors) {
-        if (x.function != Function::identity) return "an inequality has a sine or cosine";
-        term *= power(coordinate(x.variable), x.power);
-      }
-      bound += term;
-    }
+    const Enclosure bound = Row(g, system_.size()).value(coordinates_);
     if (!(v && is_nonnegative(*v)) && !bound.is_nonnegative())
       return "an inequality (" + g.source + ") is not shown to hold there";
   }

@@ -12,12 +12,10 @@ namespace {
 
 using Matrix = std::vector<Sides>;
 
-std::vector<std::vector<double>> middles(const Matrix& a) {
-  std::vector<std::vector<double>> result;
-  for (const Sides& row : a) {
-    result.emplace_back();
-    for (const Enclosure& entry : row) result.back().push_back(entry.mid());
-  }
+Eigen::MatrixXd middle(const Matrix& a) {
+  Eigen::MatrixXd result(std::ssize(a), a.empty() ? 0 : std::ssize(a.front()));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < a[i].size(); ++j) result(i, j) = a[i][j].mid();
   return result;
 }
 
@@ -52,19 +50,16 @@ void eliminate_below(std::size_t k, Matrix& a) {
 std::optional<Matrix> kernel_basis(const Matrix& a, const std::vector<int>& dependent, const std::vector<int>& free) {
   const std::size_t m = a.size(), n = m + free.size();
   if (dependent.size() != m) return std::nullopt;
-  std::vector<double> middle;
-  for (const Sides& row : a)
-    for (const int d : dependent) middle.push_back(row[d].mid());
-  std::vector<double> y = inverse(middle, m);
-  if (y.size() != m * m) return std::nullopt;
-  drop_noise(y, m);
+  Eigen::MatrixXd y = inverse(middle(a)(Eigen::all, dependent));
+  if (!y.allFinite()) return std::nullopt;
+  drop_noise(y);
   thread_local Matrix t;  // Y·A, whose memory is used again
   t.resize(m);
   for (std::size_t i = 0; i < m; ++i) {
     t[i].assign(n, Enclosure());
     for (std::size_t b = 0; b < m; ++b)
-      for (std::size_t j = 0; y[i * m + b] != 0 && j < n; ++j)
-        if (!a[b][j].is_zero()) t[i][j].add_product(y[i * m + b], a[b][j]);
+      for (std::size_t j = 0; y(i, b) != 0 && j < n; ++j)
+        if (!a[b][j].is_zero()) t[i][j].add_product(y(i, b), a[b][j]);
   }
   for (std::size_t k = 0; k < m; ++k) {
     const Enclosure pivot = t[k][dependent[k]];
@@ -88,17 +83,14 @@ std::optional<Matrix> kernel_basis(const Matrix& a, const std::vector<int>& depe
 }
 
 std::optional<Matrix> form_on_kernel(const Matrix& h, const Matrix& a) {
-  const std::vector<int> dependent = pivots(middles(a), a.size()).columns;
+  const std::vector<int> dependent = pivots(middle(a), a.size()).columns;
   const auto basis = kernel_basis(a, dependent, all_but(dependent, static_cast<int>(h.size())));
   return basis ? congruent(h, *basis) : std::nullopt;
 }
 
 std::optional<Matrix> nearly_diagonal(const Matrix& t) {
   const int n = static_cast<int>(t.size());
-  Eigen::MatrixXd middle(n, n);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) middle(i, j) = t[i][j].mid();
-  const Eigen::MatrixXd vectors = n > 0 ? symmetric_eigen(middle).vectors : middle;
+  const Eigen::MatrixXd vectors = n > 0 ? symmetric_eigen(middle(t)).vectors : Eigen::MatrixXd();
   if (!vectors.allFinite()) return std::nullopt;
   Matrix q(n, Sides(n));
   for (int i = 0; i < n; ++i)

@@ -5,30 +5,24 @@
 #include <utility>
 
 #include "corank/check/krawczyk.h"
+#include "corank/core/dense.h"
 
 namespace corank::check {
 namespace {
 
 // Rows and columns in turn divided by the roots of their largest entries. `sizes`: those of the entries in a whole box,
 // since a column that is 0 in its middle but for roundings is to stay small.
-std::vector<std::vector<double>> balanced(std::vector<std::vector<double>> a, std::vector<std::vector<double>> sizes) {
+Eigen::MatrixXd balanced(Eigen::MatrixXd a, Eigen::MatrixXd sizes) {
   constexpr int kTurns = 8;
-  const std::size_t columns = a.empty() ? 0 : a[0].size();
-  const auto divide = [&](std::size_t count, const auto& place) {
-    double largest = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto [i, j] = place(k);
-      largest = std::max(largest, sizes[i][j]);
-    }
-    for (std::size_t k = 0; largest > 0 && k < count; ++k) {
-      const auto [i, j] = place(k);
-      sizes[i][j] /= std::sqrt(largest);
-      a[i][j] /= std::sqrt(largest);
-    }
+  const auto divide = [](auto line, auto sizes_of_line) {
+    const double largest = sizes_of_line.maxCoeff();
+    if (!(largest > 0)) return;
+    line /= std::sqrt(largest);
+    sizes_of_line /= std::sqrt(largest);
   };
-  for (int turn = 0; turn < kTurns; ++turn) {
-    for (std::size_t i = 0; i < a.size(); ++i) divide(columns, [i](std::size_t j) { return std::pair(i, j); });
-    for (std::size_t j = 0; j < columns; ++j) divide(a.size(), [j](std::size_t i) { return std::pair(i, j); });
+  for (int turn = 0; turn < kTurns && a.size() > 0; ++turn) {
+    for (Eigen::Index i = 0; i < a.rows(); ++i) divide(a.row(i), sizes.row(i));
+    for (Eigen::Index j = 0; j < a.cols(); ++j) divide(a.col(j), sizes.col(j));
   }
   return a;
 }
@@ -78,27 +72,24 @@ bool KernelCheck::has_rank(std::size_t s, const Sides& x) const {
   std::vector<double> middle;
   for (const Enclosure& side : x) middle.push_back(side.mid());
   const std::vector<Sides> entries = values(rows_, x);
-  std::vector<std::vector<double>> matrix(rows_.size()), sizes(rows_.size());
+  Eigen::MatrixXd matrix(std::ssize(rows_), columns_), sizes = matrix;
   for (std::size_t i = 0; i < rows_.size(); ++i)
     for (std::size_t j = 0; j < rows_[i].size(); ++j) {
-      matrix[i].push_back(rows_[i][j].approximate(middle));
-      sizes[i].push_back(entries[i][j].mag());
+      matrix(i, j) = rows_[i][j].approximate(middle);
+      sizes(i, j) = entries[i][j].mag();
     }
   const auto [rows, columns] = pivots(balanced(matrix, std::move(sizes)), s);  // whatever the units of its entries
   if (rows.size() < s) return false;
-  std::vector<double> minor;
-  for (const std::size_t i : rows)
-    for (const std::size_t j : columns) minor.push_back(matrix[i][j]);
-  const std::vector<double> y = inverse(minor, s);
-  if (y.size() != s * s) return false;
-  std::vector<double> excess;
+  const Eigen::MatrixXd y = inverse(matrix(rows, columns));
+  if (!y.allFinite()) return false;
+  Eigen::MatrixXd excess = y;
   for (std::size_t a = 0; a < s; ++a)
     for (std::size_t j = 0; j < s; ++j) {
       Enclosure entry(a == j ? -1.0 : 0.0);
-      for (std::size_t b = 0; b < s; ++b) entry.add_product(y[a * s + b], entries[rows[b]][columns[j]]);
-      excess.push_back(entry.mag());
+      for (std::size_t b = 0; b < s; ++b) entry.add_product(y(a, b), entries[rows[b]][columns[j]]);
+      excess(a, j) = entry.mag();
     }
-  return is_contraction(excess, s);
+  return is_contraction(excess);
 }
 
 bool KernelCheck::is_at_most(int most, const Box& box) const {

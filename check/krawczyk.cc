@@ -8,16 +8,18 @@
 
 namespace corank::check {
 
-std::vector<double> inverse(const std::vector<double>& a, std::size_t r) {
-  using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  std::vector<double> result(r * r);
-  if (r > 0) Eigen::Map<ByRows>(result.data(), r, r) = corank::inverse(Eigen::Map<const ByRows>(a.data(), r, r));
-  const bool finite = std::ranges::all_of(result, [](double x) { return std::isfinite(x); });
-  return finite ? result : std::vector<double>();
+Eigen::MatrixXd approximate_jacobian(const std::vector<Row>& equations, const std::vector<double>& point) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(std::ssize(equations), std::ssize(point));
+  std::vector<double> entries;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    equations[i].approximate(point, entries);
+    for (std::size_t k = 0; k < entries.size(); ++k) result(i, equations[i].columns()[k]) = entries[k];
+  }
+  return result;
 }
 
-Pivots pivots(std::vector<std::vector<double>> t, std::size_t most, double least) {
-  const int m = static_cast<int>(t.size()), n = m > 0 ? static_cast<int>(t[0].size()) : 0;
+Pivots pivots(Eigen::MatrixXd t, std::size_t most, double least) {
+  const int m = static_cast<int>(t.rows()), n = static_cast<int>(t.cols());
   Pivots result;
   std::vector<bool> used(m, false), taken(n, false);
   while (result.rows.size() < most) {
@@ -25,27 +27,28 @@ Pivots pivots(std::vector<std::vector<double>> t, std::size_t most, double least
     double best = least;
     for (int i = 0; i < m; ++i)
       for (int j = 0; j < n && !used[i]; ++j)
-        if (!taken[j] && std::fabs(t[i][j]) > best) best = std::fabs(t[i][j]), row = i, column = j;
+        if (!taken[j] && std::fabs(t(i, j)) > best) best = std::fabs(t(i, j)), row = i, column = j;
     if (best == least) break;
     used[row] = taken[column] = true;
     result.rows.push_back(row);
     result.columns.push_back(column);
     for (int i = 0; i < m; ++i) {
-      const double factor = t[i][column] / t[row][column];
-      for (int j = 0; j < n && !used[i]; ++j) t[i][j] -= factor * t[row][j];
+      const double factor = t(i, column) / t(row, column);
+      for (int j = 0; j < n && !used[i]; ++j) t(i, j) -= factor * t(row, j);
     }
   }
   return result;
 }
 
-bool is_contraction(const std::vector<double>& e, std::size_t r) {
+bool is_contraction(const Eigen::MatrixXd& e) {
   constexpr int kCandidates = 200;
+  const std::size_t r = e.rows();
   // r = Σ Eᵏ·1 to where Eᵏ·1 < 1: then E·r < r. In doubles; what they find is checked in enclosures.
   std::vector<double> power(r, 1.0), radius(r, 1.0), next(r);
   for (int candidate = 0; candidate < kCandidates; ++candidate) {
     for (std::size_t a = 0; a < r; ++a) {
       next[a] = 0;
-      for (std::size_t k = 0; k < r; ++k) next[a] += e[a * r + k] * power[k];
+      for (std::size_t k = 0; k < r; ++k) next[a] += e(a, k) * power[k];
       if (!std::isfinite(next[a])) return false;
     }
     power = next;
@@ -54,20 +57,15 @@ bool is_contraction(const std::vector<double>& e, std::size_t r) {
   }
   for (std::size_t a = 0; a < r; ++a) {
     Enclosure sum;
-    for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(e[a * r + k]));
+    for (std::size_t k = 0; k < r; ++k) sum.add_product(radius[k], Enclosure(e(a, k)));
     if (!sum.is_bounded() || !sum.below(Enclosure(radius[a]))) return false;
   }
   return true;
 }
 
-void drop_noise(std::vector<double>& y, std::size_t r) {
+void drop_noise(Eigen::MatrixXd& y) {
   constexpr double kNoise = 1e-13;
-  for (std::size_t a = 0; a < r; ++a) {
-    double most = 0;
-    for (std::size_t b = 0; b < r; ++b) most = std::max(most, std::fabs(y[a * r + b]));
-    for (std::size_t b = 0; b < r; ++b)
-      if (std::fabs(y[a * r + b]) <= kNoise * most) y[a * r + b] = 0;
-  }
+  for (auto row : y.rowwise()) row = (row.array().abs() <= kNoise * row.cwiseAbs().maxCoeff()).select(0, row);
 }
 
 Krawczyk::Krawczyk(const std::vector<Row>& equations, int variables)
@@ -95,7 +93,7 @@ bool Krawczyk::set(const std::vector<int>& dependent, const Sides& x, Center aro
   for (const Row& f : equations_) at_center.push_back(f.value(center_sides_));
   residual_.assign(r, Enclosure());
   for (std::size_t a = 0; a < r; ++a)
-    for (std::size_t b = 0; b < r; ++b) residual_[a].add_product(y_[a * r + b], at_center[b]);
+    for (std::size_t b = 0; b < r; ++b) residual_[a].add_product(y_(a, b), at_center[b]);
   return true;
 }
 
@@ -105,7 +103,7 @@ bool Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
   for (std::size_t a = 0; a < r; ++a) {
     const std::size_t d = dependent_[a];
     double shift = 0;
-    for (std::size_t b = 0; b < r; ++b) shift += y_[a * r + b] * values[b];
+    for (std::size_t b = 0; b < r; ++b) shift += y_(a, b) * values[b];
     if (!std::isfinite(shift)) continue;
     const double next = std::clamp(center_[d] - shift, x[d].lo(), x[d].hi());
     moved = moved || next != center_[d];
@@ -114,31 +112,18 @@ bool Krawczyk::polish(const Sides& x, const std::vector<double>& values) {
   return moved;
 }
 
-std::vector<int> Krawczyk::row_of() const {
-  std::vector<int> result(center_.size(), -1);
-  for (std::size_t a = 0; a < dependent_.size(); ++a) result[dependent_[a]] = static_cast<int>(a);
-  return result;
-}
-
 bool Krawczyk::invert() {
-  const std::size_t r = equations_.size();
-  const std::vector<int> place = row_of();
-  std::vector<double> matrix(r * r, 0.0), entries;
-  for (std::size_t b = 0; b < r; ++b) {
-    equations_[b].approximate(center_, entries);
-    for (std::size_t k = 0; k < entries.size(); ++k)
-      if (const int a = place[equations_[b].columns()[k]]; a >= 0) matrix[b * r + a] = entries[k];
-  }
-  y_ = inverse(matrix, r);
-  if (y_.size() != r * r) return false;
-  drop_noise(y_, r);
+  y_ = inverse(approximate_jacobian(equations_, center_)(Eigen::all, dependent_));
+  if (!y_.allFinite()) return false;
+  drop_noise(y_);
   return true;
 }
 
 bool Krawczyk::invert_refined() {
   const std::size_t r = equations_.size();
   const Sides center(center_.begin(), center_.end());
-  const std::vector<int> place = row_of();
+  std::vector<int> place(center_.size(), -1);  // of each variable which dependent it is
+  for (std::size_t a = 0; a < r; ++a) place[dependent_[a]] = static_cast<int>(a);
   Sides entries;
   std::vector<Sides> t(r, Sides(2 * r));  // J_D | I
   for (std::size_t b = 0; b < r; ++b) {
@@ -163,10 +148,10 @@ bool Krawczyk::invert_refined() {
       for (const std::size_t j : columns) t[i][j].add_product(factor, t[k][j]);
     }
   }
-  y_.assign(r * r, 0.0);
+  y_.resize(std::ssize(t), std::ssize(t));
   for (std::size_t a = 0; a < r; ++a)
-    for (std::size_t b = 0; b < r; ++b) y_[a * r + b] = t[a][r + b].mid();
-  return std::ranges::all_of(y_, [](double y) { return std::isfinite(y); });
+    for (std::size_t b = 0; b < r; ++b) y_(a, b) = t[a][r + b].mid();
+  return y_.allFinite();
 }
 
 void Krawczyk::multiply(const std::vector<Sides>& rows, std::vector<Sides>& product) const {
@@ -175,7 +160,7 @@ void Krawczyk::multiply(const std::vector<Sides>& rows, std::vector<Sides>& prod
   for (std::size_t a = 0; a < r; ++a) {
     product[a].assign(n_, Enclosure());
     for (std::size_t b = 0; b < r; ++b) {
-      const double y = y_[a * r + b];
+      const double y = y_(a, b);
       if (y == 0) continue;
       for (std::size_t k = 0; k < rows[b].size(); ++k) product[a][equations_[b].columns()[k]].add_product(y, rows[b][k]);
     }
@@ -215,13 +200,13 @@ bool Krawczyk::is_injective(const Sides& x) {
   const std::size_t r = dependent_.size();
   for (std::size_t b = 0; b < r; ++b) equations_[b].derivatives(x, entries_[b]);
   multiply(entries_, derivatives_);
-  std::vector<double> excess(r * r);  // ≥ |I − Y·J_D|
+  Eigen::MatrixXd excess(std::ssize(dependent_), std::ssize(dependent_));  // ≥ |I − Y·J_D|
   for (std::size_t a = 0; a < r; ++a)
     for (std::size_t k = 0; k < r; ++k) {
       const Enclosure& entry = derivatives_[a][dependent_[k]];
-      excess[a * r + k] = (Enclosure(a == k ? 1.0 : 0.0) - entry).mag();
+      excess(a, k) = (Enclosure(a == k ? 1.0 : 0.0) - entry).mag();
     }
-  return is_contraction(excess, r);
+  return is_contraction(excess);
 }
 
 bool Krawczyk::center_solves(const Sides& x) const {

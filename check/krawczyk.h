@@ -1,6 +1,7 @@
 // The checker's own Newton steps and proof of existence and uniqueness; theorems and proofs as in doc/theory.md ("A sheet").
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "corank/check/form.h"
@@ -10,21 +11,20 @@ namespace corank::check {
 
 /// Sets entries that are rounding noise beside the largest of their row to 0: where a variable is 0 on the whole set, its
 /// equations then bound it on their own, however small its side.
-void drop_noise(std::vector<double>& y, std::size_t r);
+void drop_noise(Eigen::MatrixXd& y);
 
-/// The inverse of a row-major r×r matrix in doubles; empty where it is singular to that precision.
-std::vector<double> inverse(const std::vector<double>& a, std::size_t r);
+/// The equations' Jacobian at a point, in doubles: nothing is proven by it.
+Eigen::MatrixXd approximate_jacobian(const std::vector<Row>& equations, const std::vector<double>& point);
 
 /// Complete pivoting: rows and columns of a matrix that make a well-conditioned submatrix, at most `most` of each. Ends
 /// where no pivot is larger than `least`.
 struct Pivots {
   std::vector<int> rows, columns;
 };
-Pivots pivots(std::vector<std::vector<double>> t, std::size_t most, double least = 0);
+Pivots pivots(Eigen::MatrixXd t, std::size_t most, double least = 0);
 
-/// Is E·x < x for some x > 0? Then every matrix I − A with |A| ≤ E is regular: the spectral radius of E is below 1. E ≥ 0,
-/// row-major r×r.
-bool is_contraction(const std::vector<double>& e, std::size_t r);
+/// Is E·x < x for some x > 0? Then every matrix I − A with |A| ≤ E is regular: the spectral radius of E is below 1. E ≥ 0.
+bool is_contraction(const Eigen::MatrixXd& e);
 
 /// Equations F, r of them, over the kept variables.
 class Krawczyk {
@@ -63,8 +63,6 @@ class Krawczyk {
  private:
   // y_ := inverse of the dependent columns at the centre.
   bool invert();
-  // Of each variable which dependent it is; −1: none.
-  std::vector<int> row_of() const;
   // The same from the Jacobian in enclosures, by elimination with their midpoints.
   bool invert_refined();
   // One step of Newton's method with Y; did it move the centre?
@@ -80,7 +78,8 @@ class Krawczyk {
   const std::vector<Row>& equations_;
   int n_;
   std::vector<int> dependent_;
-  std::vector<double> center_, y_;
+  std::vector<double> center_;
+  Eigen::MatrixXd y_;
   Sides center_sides_, residual_;                       // c, Y·F(c)
   std::vector<Sides> entries_, product_, derivatives_;  // product_: Y·S of image()
 };

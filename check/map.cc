@@ -33,12 +33,11 @@ class MapCheck {
         claims_(claims),
         options_(options),
         problem_(system, claims.reduction, StopFlag(options.ended)),
+        lengths_(problem_.lengths()),
         report_(report) {
     report_.cells.resize(claims.cells.size());
     for (int k = 0; k < problem_.size(); ++k)
       (std::ranges::find(parameters, problem_.kept()[k]) == parameters.end() ? unknowns_ : places_).push_back(k);
-    const std::vector<double> lengths = domain_lengths(system);
-    for (const int v : problem_.kept()) lengths_.push_back(lengths[v]);
   }
 
   void run() {
@@ -283,8 +282,8 @@ class MapCheck {
   const MapClaims& claims_;
   const Options& options_;
   const Problem problem_;
+  const std::vector<double> lengths_;
   std::vector<int> unknowns_, places_;  // of the others that were kept, and of the parameters, among all that were
-  std::vector<double> lengths_;         // of the kept
   ThreadArena arena_{options_.threads};
   std::mutex mutex_;
   MapReport& report_;

@@ -17,19 +17,14 @@ PassageCheck::PassageCheck(const System& system, const StopFlag& stop) : stop_(s
   columns_ = form.columns;
   multipliers_ = form.multipliers;
   jacobian_ = entries_of({form.equations, form.columns, form.jacobian}, system.size());
-  const auto rows_of = [&](const std::vector<Polynomial>& list) {
-    std::vector<Row> rows;
-    for (const Polynomial& f : list) rows.emplace_back(f, system.size());
-    return rows;
-  };
-  hessian_ = rows_of(form.hessian);
-  slack_ = rows_of(form.slack);
-  normal_ = rows_of(form.normal);
+  hessian_ = rows_of(form.hessian, system.size());
+  slack_ = rows_of(form.slack, system.size());
+  normal_ = rows_of(form.normal, system.size());
   RowMatrix all = jacobian_;
   all.insert(all.end(), {hessian_, slack_, normal_});
   arguments_ = variables_of(all);
-  equations_ = rows_of(system.equations);
-  inequalities_ = rows_of(system.inequalities);
+  equations_ = rows_of(system.equations, system.size());
+  inequalities_ = rows_of(system.inequalities, system.size());
 }
 
 std::optional<std::vector<Sides>> PassageCheck::form(const Sides& x) const {

@@ -49,9 +49,14 @@ class PieceCheck {
  public:
   PieceCheck(const Problem& problem, const Problem& reduced, const Cover& cover, const PieceFunctions& functions,
              const PieceClaims& claims, int threads)
-      : problem_(problem), reduced_(reduced), cover_(cover), functions_(functions), claims_(claims), threads_(threads) {
-    for (const Polynomial& g : functions.functions) rows_.emplace_back(g, problem.size());
-    for (const Polynomial& g : functions.requirement_functions) requirement_rows_.emplace_back(g, problem.size());
+      : problem_(problem),
+        reduced_(reduced),
+        cover_(cover),
+        functions_(functions),
+        claims_(claims),
+        threads_(threads),
+        rows_(rows_of(functions.functions, problem.size())),
+        requirement_rows_(rows_of(functions.requirement_functions, problem.size())) {
     for (std::size_t m = 0; m < matrices_.size(); ++m) matrices_[m] = entries_of(functions.matrices[m], problem.size());
   }
 
@@ -162,12 +167,6 @@ class PieceCheck {
     return all;
   }
 
-  static bool apart(const Sides& x, const Sides& y) {
-    for (std::size_t j = 0; j < x.size(); ++j)
-      if (!x[j].overlaps(y[j])) return true;
-    return false;
-  }
-
   // No configuration stands for two pieces.
   void check_distinct_members() {
     std::vector<Box> hulls;
@@ -176,7 +175,7 @@ class PieceCheck {
     for (const Box& hull : hulls) boxes.push_back(&hull);
     const auto told_apart = [&](std::size_t a, std::size_t b) {
       problem_.stop().poll();
-      return apart(members_[a], members_[b]);
+      return !overlap(members_[a], members_[b]);
     };
     for (const auto& [a, b] : meeting_pairs(boxes, told_apart, 1))
       fail("members " + std::to_string(std::min(a, b) + 1) + " and " + std::to_string(std::max(a, b) + 1) +
@@ -271,7 +270,7 @@ class PieceCheck {
       for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto part = parts[c].find(signs);
         if (part == parts[c].end()) continue;
-        if (apart(members_[k], cells[c].sides)) continue;
+        if (!overlap(members_[k], cells[c].sides)) continue;
         if (first) classes.unite(*first, part->second);
         first = part->second;
       }

@@ -174,9 +174,7 @@ class Bound {
 
   std::optional<FreeSides> common(std::size_t c, std::size_t d) const {
     FreeSides result = cells_[c].over;
-    for (std::size_t k = 0; k < result.size(); ++k)
-      if (!result[k].intersect(cells_[d].over[k])) return std::nullopt;
-    return result;
+    return intersect(result, cells_[d].over) ? std::optional(result) : std::nullopt;
   }
 
   // Of a solution in S; nothing: a sign is not known, or it is not in S.

@@ -100,6 +100,13 @@ bool Problem::clip_to_implied(Sides& x) const {
   return true;
 }
 
+std::vector<double> Problem::lengths() const {
+  const std::vector<double> all = domain_lengths(system_);
+  std::vector<double> result;
+  for (const int j : kept_) result.push_back(all[j]);
+  return result;
+}
+
 Sides Problem::domain() const {
   Sides x;
   for (const int j : kept_) {

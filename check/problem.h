@@ -60,6 +60,8 @@ class Problem {
   bool clip_to_implied(Sides& x) const;
   /// The domain of the kept variables, enclosed.
   Sides domain() const;
+  /// domain_lengths() of the kept variables.
+  std::vector<double> lengths() const;
 
  private:
   void add_domain(int variable, const std::optional<Terms>& value, int sign);

@@ -184,8 +184,11 @@ class Replay {
       : problem_(problem), cover_(cover), proof_(*cover.proof), progress_(progress), searches_([this] {
           return Search(problem_);
         }) {
-    for (const Proof::Combination& c : proof_.combinations)
-      combinations_.push_back({c.equations, c.dependent, {c.y.begin(), c.y.end()}});
+    using ByRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    for (const Proof::Combination& c : proof_.combinations) {
+      const Eigen::Index r = std::ssize(c.dependent);
+      combinations_.push_back({c.equations, c.dependent, Eigen::Map<const ByRows>(c.y.data(), r, r).cast<double>()});
+    }
   }
 
   Replayed run() {

@@ -8,6 +8,7 @@
 #include "corank/check/distance.h"
 #include "corank/check/inertia.h"
 #include "corank/check/krawczyk.h"
+#include "corank/core/box.h"
 #include "corank/core/dense.h"
 
 namespace corank::check {
@@ -16,18 +17,18 @@ namespace {
 constexpr double kLeastPivot = 1e-9;
 
 // At least |E|·u.
-std::vector<double> pushed(const std::vector<double>& e, const std::vector<double>& u) {
+std::vector<double> pushed(const Eigen::MatrixXd& e, const std::vector<double>& u) {
   std::vector<double> result;
   for (std::size_t i = 0; i < u.size(); ++i) {
     Enclosure sum;
-    for (std::size_t k = 0; k < u.size(); ++k) sum.add_product(e[i * u.size() + k], Enclosure(u[k]));
+    for (std::size_t k = 0; k < u.size(); ++k) sum.add_product(e(i, k), Enclosure(u[k]));
     result.push_back(sum.hi());
   }
   return result;
 }
 
 // u ≥ |t| + |E|·u, and more where t is 0; empty where none is found.
-std::vector<double> majorant(const std::vector<double>& e, std::vector<double> t) {
+std::vector<double> majorant(const Eigen::MatrixXd& e, std::vector<double> t) {
   constexpr int kSteps = 100;
   double greatest = 0;
   for (const double x : t) greatest = std::max(greatest, x);
@@ -67,42 +68,33 @@ class VelocityCheck {
 
   // kernel_ := a basis of the kernel of the pivots' rows.
   bool find_kernel() {
-    std::vector<std::vector<double>> middle;
-    double largest = 0;
-    for (std::size_t i = 0; i < rows_; ++i) {
-      middle.emplace_back();
+    Eigen::MatrixXd middle(rows_, columns_);
+    for (std::size_t i = 0; i < rows_; ++i)
       for (std::size_t j = 0; j < columns_; ++j) {
         const Form& f = a_[i * columns_ + j];
         if (!f.range(offsets_).is_bounded()) return false;
-        middle[i].push_back(f.constant.mid());
-        largest = std::max(largest, std::fabs(middle[i][j]));
+        middle(i, j) = f.constant.mid();
       }
-    }
-    const Pivots p = pivots(middle, rows_, kLeastPivot * largest);
+    const Pivots p = pivots(middle, rows_, kLeastPivot * middle.lpNorm<Eigen::Infinity>());
     const std::size_t r = p.rows.size();
     all_rows_ = r == rows_;
-    std::vector<double> block;
-    for (const int i : p.rows)
-      for (const int j : p.columns) block.push_back(middle[i][j]);
-    const std::vector<double> y = inverse(block, r);
-    if (y.size() != r * r) return false;
-    std::vector<int> free;
-    for (int j = 0; j < static_cast<int>(columns_); ++j)
-      if (std::ranges::find(p.columns, j) == p.columns.end()) free.push_back(j);
+    const Eigen::MatrixXd y = inverse(middle(p.rows, p.columns));
+    if (!y.allFinite()) return false;
+    const std::vector<int> free = all_but(p.columns, static_cast<int>(columns_));
     // Y·A in one column, row i.
     const auto preconditioned = [&](std::size_t i, int j) {
       Form sum = zero();
-      for (std::size_t b = 0; b < r; ++b) sum.add_multiple(Enclosure(y[i * r + b]), a_[p.rows[b] * columns_ + j]);
+      for (std::size_t b = 0; b < r; ++b) sum.add_multiple(Enclosure(y(i, b)), a_[p.rows[b] * columns_ + j]);
       return sum;
     };
     std::vector<Vector> e(r), t(r);
-    std::vector<double> e_size(r * r);
+    Eigen::MatrixXd e_size = y;  // whose entries are all replaced
     for (std::size_t i = 0; i < r; ++i) {
       for (std::size_t k = 0; k < r; ++k) {
         Form f = zero();
         f.add_multiple(Enclosure(-1.0), preconditioned(i, p.columns[k]));
         if (i == k) f.constant += Enclosure(1.0);
-        e_size[i * r + k] = f.range(offsets_).mag();
+        e_size(i, k) = f.range(offsets_).mag();
         e[i].push_back(std::move(f));
       }
       for (const int j : free) t[i].push_back(preconditioned(i, j));

@@ -10,6 +10,10 @@
 namespace corank::check {
 namespace {
 
+double power(double x, int p) { return p == 1 ? x : p == 2 ? x * x : std::pow(x, p); }
+double sine(double x) { return std::sin(x); }
+double cosine(double x) { return std::cos(x); }
+
 // (sin x − sin c)/(x − c) = cos((x + c)/2)·sin(h)/h with h = (x − c)/2, and 1 − h²/6 ≤ sin(h)/h ≤ 1; besides, a derivative
 // at a point between x and c.
 Enclosure wave_slope(const Enclosure& at_middle, const Enclosure& over_hull, const Enclosure& h) {
@@ -39,16 +43,18 @@ Row::Row(const Terms& f, const std::vector<int>& place) {
 
 Row::Row(const Polynomial& f, int variables, double tolerance) : Row(Terms(f, tolerance), all_but({}, variables)) {}
 
-Enclosure Row::value(const TermFactor& p, const Enclosure& x) {
+template <class Number>
+Number Row::value(const TermFactor& p, const Number& x) {
   if (p.function == Function::sine) return sine(x);
   if (p.function == Function::cosine) return cosine(x);
   return power(x, p.power);
 }
 
-Enclosure Row::derivative(const TermFactor& p, const Enclosure& x) {
+template <class Number>
+Number Row::derivative(const TermFactor& p, const Number& x) {
   if (p.function == Function::sine) return cosine(x);
   if (p.function == Function::cosine) return -sine(x);
-  return p.power == 1 ? Enclosure(1.0) : Enclosure(static_cast<double>(p.power)) * power(x, p.power - 1);
+  return p.power == 1 ? Number(1.0) : Number(static_cast<double>(p.power)) * power(x, p.power - 1);
 }
 
 Enclosure Row::slope(const TermFactor& p, const Enclosure& x, const Enclosure& c) {
@@ -65,10 +71,11 @@ Enclosure Row::slope(const TermFactor& p, const Enclosure& x, const Enclosure& c
   return sum;
 }
 
-Enclosure Row::value(const Term& t, const Sides& x) {
-  Enclosure product = t.c;
+template <class Number>
+Number Row::value(const Term& t, const std::vector<Number>& x) {
+  Number product = t.coefficient(Number());
   for (const TermFactor& p : t.parts) {
-    const Enclosure& side = x[p.variable];
+    const Number& side = x[p.variable];
     if (p.power == 1 && p.function == Function::identity) {
       product *= side;
     } else {
@@ -109,49 +116,27 @@ void Row::slopes(const Sides& x, const Sides& c, Sides& s) const {
   }
 }
 
-void Row::derivatives(const Sides& x, Sides& s) const {
-  s.assign(columns_.size(), Enclosure());
+template <class Number>
+void Row::find_derivatives(const std::vector<Number>& x, std::vector<Number>& s) const {
+  s.assign(columns_.size(), Number());
   for (const Term& t : terms_)
     for (const TermFactor& p : t.parts) {
-      Enclosure product = t.c * derivative(p, x[p.variable]);
+      Number product = t.coefficient(Number()) * derivative(p, x[p.variable]);
       for (const TermFactor& q : t.parts)
         if (&q != &p) product *= value(q, x[q.variable]);
       s[p.column] += product;
     }
 }
 
-double Row::approximate(const TermFactor& p, double x) {
-  if (p.function == Function::sine) return std::sin(x);
-  if (p.function == Function::cosine) return std::cos(x);
-  return p.power == 1 ? x : p.power == 2 ? x * x : std::pow(x, p.power);
-}
-
-double Row::approximate_derivative(const TermFactor& p, double x) {
-  if (p.function == Function::sine) return std::cos(x);
-  if (p.function == Function::cosine) return -std::sin(x);
-  return p.power == 1 ? 1 : p.power == 2 ? 2 * x : p.power * std::pow(x, p.power - 1);
-}
+void Row::derivatives(const Sides& x, Sides& s) const { find_derivatives(x, s); }
 
 double Row::approximate(const std::vector<double>& x) const {
   double sum = 0;
-  for (const Term& t : terms_) {
-    double product = t.approximate;
-    for (const TermFactor& p : t.parts) product *= approximate(p, x[p.variable]);
-    sum += product;
-  }
+  for (const Term& t : terms_) sum += value(t, x);
   return sum;
 }
 
-void Row::approximate(const std::vector<double>& x, std::vector<double>& s) const {
-  s.assign(columns_.size(), 0.0);
-  for (const Term& t : terms_)
-    for (const TermFactor& p : t.parts) {
-      double product = t.approximate * approximate_derivative(p, x[p.variable]);
-      for (const TermFactor& q : t.parts)
-        if (&q != &p) product *= approximate(q, x[q.variable]);
-      s[p.column] += product;
-    }
-}
+void Row::approximate(const std::vector<double>& x, std::vector<double>& s) const { find_derivatives(x, s); }
 
 bool Row::invert(const Term& t, const Enclosure& image, Sides& x) {
   for (const TermFactor& p : t.parts) {
@@ -217,6 +202,12 @@ bool Row::project_by_slopes(Sides& x) const {
   return true;
 }
 
+std::vector<Row> rows_of(const std::vector<Polynomial>& list, int variables, double tolerance) {
+  std::vector<Row> rows;
+  for (const Polynomial& f : list) rows.emplace_back(f, variables, tolerance);
+  return rows;
+}
+
 RowMatrix entries_of(const PolynomialMatrix& matrix, int variables, double tolerance) {
   RowMatrix rows(matrix.rows);
   for (int k = 0; k < matrix.rows * matrix.columns; ++k)
@@ -238,6 +229,10 @@ std::vector<int> variables_of(const RowMatrix& matrix) {
   for (const std::vector<Row>& row : matrix)
     for (const Row& entry : row) variables.insert(entry.columns().begin(), entry.columns().end());
   return {variables.begin(), variables.end()};
+}
+
+bool overlap(const Sides& x, const Sides& y) {
+  return std::ranges::equal(x, y, [](const Enclosure& a, const Enclosure& b) { return a.overlaps(b); });
 }
 
 std::vector<double> domain_lengths(const System& system) {

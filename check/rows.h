@@ -47,13 +47,20 @@ class Row {
     Enclosure c;
     double approximate;
     std::vector<TermFactor> parts;
+
+    const Enclosure& coefficient(const Enclosure&) const { return c; }
+    double coefficient(double) const { return approximate; }
   };
-  static Enclosure value(const TermFactor& p, const Enclosure& x);
-  static Enclosure derivative(const TermFactor& p, const Enclosure& x);
+  // Number: Enclosure or double.
+  template <class Number>
+  static Number value(const TermFactor& p, const Number& x);
+  template <class Number>
+  static Number derivative(const TermFactor& p, const Number& x);
   static Enclosure slope(const TermFactor& p, const Enclosure& x, const Enclosure& c);
-  static double approximate(const TermFactor& p, double x);
-  static double approximate_derivative(const TermFactor& p, double x);
-  static Enclosure value(const Term& t, const Sides& x);
+  template <class Number>
+  static Number value(const Term& t, const std::vector<Number>& x);
+  template <class Number>
+  void find_derivatives(const std::vector<Number>& x, std::vector<Number>& s) const;
   bool is_linear() const;
   bool project_by_slopes(Sides& x) const;
   static bool invert(const Term& t, const Enclosure& image, Sides& x);
@@ -62,12 +69,18 @@ class Row {
   std::vector<int> columns_;
 };
 
+/// Over all variables; `variables` is their number.
+std::vector<Row> rows_of(const std::vector<Polynomial>& list, int variables, double tolerance = 0);
+
 /// The entries of a matrix over all variables, row by row.
 using RowMatrix = std::vector<std::vector<Row>>;
 RowMatrix entries_of(const PolynomialMatrix& matrix, int variables, double tolerance = 0);
 std::vector<Sides> values(const RowMatrix& matrix, const Sides& x);
 /// Of all entries, ascending.
 std::vector<int> variables_of(const RowMatrix& matrix);
+
+/// Have two boxes of as many sides a point in common?
+bool overlap(const Sides& x, const Sides& y);
 
 /// Of each variable the width of its domain, of a parameter its size; 1 where that is 0. By their share of it sides of
 /// unlike units compare.

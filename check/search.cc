@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "corank/check/krawczyk.h"
+#include "corank/core/dense.h"
 
 namespace corank::check {
 namespace {
@@ -45,7 +46,7 @@ bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<doub
     Sides product(n);
     Enclosure sum;
     for (std::size_t b = 0; b < r; ++b) {
-      const double y = p.y[a * r + b];
+      const double y = p.y(a, b);
       if (y == 0) continue;
       sum.add_product(y, at_center[b]);
       const auto& columns = problem_.equations()[p.equations[b]].columns();
@@ -75,33 +76,18 @@ bool Search::newton(Sides& x, const LinearCombination& p, const std::vector<doub
 }
 
 bool Search::own_combination(const Sides& x, LinearCombination& p, std::vector<double>& center) {
-  const std::size_t m = problem_.equations().size(), n = x.size();
+  const std::size_t n = x.size();
   center.resize(n);
   for (std::size_t j = 0; j < n; ++j) center[j] = x[j].mid();
-  std::vector<std::vector<double>> jacobian(m, std::vector<double>(n, 0.0));
-  std::vector<double> entries;
-  for (std::size_t i = 0; i < m; ++i) {
-    const Row& f = problem_.equations()[i];
-    f.approximate(center, entries);
-    for (std::size_t k = 0; k < entries.size(); ++k) jacobian[i][f.columns()[k]] = entries[k];
-  }
-  std::vector<std::vector<double>> scaled = jacobian;
+  const Eigen::MatrixXd jacobian = approximate_jacobian(problem_.equations(), center);
+  Eigen::MatrixXd scaled = jacobian;
   for (std::size_t j = 0; j < n; ++j)  // what the others are solved for
-    if (problem_.system().variables[problem_.kept()[j]].is_parameter())
-      for (std::vector<double>& row : scaled) row[j] = 0;
-  for (std::vector<double>& row : scaled) {
-    double most = 1e-300;
-    for (const double entry : row) most = std::max(most, std::fabs(entry));
-    for (double& entry : row) entry /= most;
-  }
-  const Pivots chosen = pivots(std::move(scaled), std::min(m, n), kRankTolerance);
-  p = {chosen.rows, chosen.columns, {}};
-  for (const int i : chosen.rows)
-    for (const int j : chosen.columns) p.y.push_back(jacobian[i][j]);
-  const std::size_t r = p.dependent.size();
-  p.y = inverse(p.y, r);
-  if (r == 0 || p.y.size() != r * r) return false;
-  drop_noise(p.y, r);
+    if (problem_.system().variables[problem_.kept()[j]].is_parameter()) scaled.col(j).setZero();
+  for (auto row : scaled.rowwise()) row /= std::max(1e-300, row.lpNorm<Eigen::Infinity>());
+  const Pivots chosen = pivots(std::move(scaled), std::min(problem_.equations().size(), n), kRankTolerance);
+  p = {chosen.rows, chosen.columns, inverse(jacobian(chosen.rows, chosen.columns))};
+  if (p.dependent.empty() || !p.y.allFinite()) return false;
+  drop_noise(p.y);
   return true;
 }
 

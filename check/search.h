@@ -1,6 +1,7 @@
 // The checker's own contraction and bounded bisection: to show that a box holds no solution, or none outside another box.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <functional>
 #include <optional>
@@ -13,7 +14,7 @@ namespace corank::check {
 /// A real linear combination Y·F of equations; row a is solved for dependent[a].
 struct LinearCombination {
   std::vector<int> equations, dependent;
-  std::vector<double> y;  ///< r×r, row-major
+  Eigen::MatrixXd y;  ///< r×r
 };
 
 /// One for each thread.

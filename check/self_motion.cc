@@ -19,16 +19,9 @@ bool is_linear_and_rational(const Polynomial& f) {
 // finds no more.
 std::vector<Row> independent(const std::vector<Row>& equations, const std::vector<int>& dependent,
                              const std::vector<double>& at) {
-  std::vector<std::vector<double>> t;
-  for (const Row& f : equations) {
-    std::vector<double> entries, row(at.size(), 0.0);
-    f.approximate(at, entries);
-    for (std::size_t k = 0; k < entries.size(); ++k) row[f.columns()[k]] = entries[k];
-    t.emplace_back();
-    for (const int d : dependent) t.back().push_back(row[d]);
-  }
   std::vector<Row> result;
-  for (const std::size_t row : pivots(std::move(t), dependent.size()).rows) result.push_back(equations[row]);
+  for (const int row : pivots(approximate_jacobian(equations, at)(Eigen::all, dependent), dependent.size()).rows)
+    result.push_back(equations[row]);
   return result;
 }
 
@@ -104,14 +97,11 @@ std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
     choices.back().erase(choices.back().begin() + without);
   }
   std::size_t best = 0;
-  std::vector<Sides> open{all};
-  for (int tries = 0; !open.empty();) {
-    problem_.stop().poll();
-    const Sides x = std::move(open.back());
-    open.pop_back();
+  int tries = 0;
+  const auto shown = [&](const Sides& x) {
     for (const int f : free) middle[f] = x[f].mid();
     const auto injective = [&](const std::vector<Row>& from) {
-      ++tries;
+      if (++tries > kMostTries) return false;
       const std::vector<Row> chosen = independent(from, dependent, middle);
       if (chosen.size() != dependent.size()) return false;
       Krawczyk newton(chosen, problem_.size());
@@ -119,24 +109,15 @@ std::string MotionCheck::unique(const CoverBox& box, const Box& region) const {
         if (newton.set(dependent, x, around) && newton.is_injective(x)) return true;
       return false;
     };
-    if (injective(choices[best])) continue;
+    if (injective(choices[best])) return true;
     const auto other = std::ranges::find_if(choices, injective);
-    if (other != choices.end()) {
-      best = other - choices.begin();
-      continue;
-    }
-    if (tries > kMostTries) return "uniqueness along its self-motion is not shown";
-    std::size_t widest = x.size();
-    for (const int f : free)
-      if (widest == x.size() || x[f].width() > x[widest].width()) widest = f;
-    if (widest == x.size()) return "uniqueness along its self-motion is not shown";
-    for (const bool upper : {false, true}) {
-      Sides part = x;
-      part[widest] = upper ? Enclosure(x[widest].mid(), x[widest].hi()) : Enclosure(x[widest].lo(), x[widest].mid());
-      open.push_back(std::move(part));
-    }
-  }
-  return {};
+    if (other == choices.end()) return false;
+    best = other - choices.begin();
+    return true;
+  };
+  const std::vector<double> lengths(all.size(), 1.0);
+  if (shown_in_parts(all, free, lengths, kMostTries, problem_.stop(), shown)) return {};
+  return "uniqueness along its self-motion is not shown";
 }
 
 }  // namespace corank::check

@@ -146,13 +146,10 @@ class ShapeCheck {
   bool holds_strictly(const Problem& problem, const Condition& condition, const Box& box) const {
     constexpr int kMostPartsOfRange = 2000;
     Search search(problem);
-    std::vector<double> lengths;
-    const std::vector<double> all = domain_lengths(problem.system());
-    for (const int j : problem.kept()) lengths.push_back(all[j]);
     const Row& row = condition.row;
-    return shown_in_parts(problem.kept(box), all_but({}, problem.size()), lengths, kMostPartsOfRange, stop_, [&](Sides& x) {
-      return row.value(x).is_positive() || !search.contract(x) || row.value(x).is_positive();
-    });
+    return shown_in_parts(
+        problem.kept(box), all_but({}, problem.size()), problem.lengths(), kMostPartsOfRange, stop_,
+        [&](Sides& x) { return row.value(x).is_positive() || !search.contract(x) || row.value(x).is_positive(); });
   }
 
   bool check_height(std::size_t k, const Linking& linking, Classes& classes, std::vector<int>& characteristics,
@@ -167,8 +164,7 @@ class ShapeCheck {
     for (std::size_t b = 0; b < cover.boxes.size(); ++b)
       if (!stands_for_a_point(cover.boxes[b]))
         return fail(name + ", box " + std::to_string(b + 1) + ": critical points along a set may lie in it"), false;
-    std::vector<Row> inside;
-    for (const Polynomial& g : critical.system.inequalities) inside.emplace_back(g, critical.system.size());
+    const std::vector<Row> inside = rows_of(critical.system.inequalities, critical.system.size());
     std::vector<int> by_index(shape_.space.dimension + 1, 0);
     std::map<std::size_t, int> euler;
     bool placed = true;

@@ -7,6 +7,7 @@
 #include "corank/check/inertia.h"
 #include "corank/check/krawczyk.h"
 #include "corank/core/box.h"
+#include "corank/core/dense.h"
 
 namespace corank::check {
 namespace {
@@ -216,21 +217,14 @@ bool SignParts::grow_together(SignCell cell, std::vector<std::size_t> functions,
   Slopes s;
   if (!slopes(cell, s)) return false;
   const std::size_t r = s.size(), n = cell.free->size();
-  std::vector<Direction> g(r, Direction(n));
+  Eigen::MatrixXd g(r, n);
   for (std::size_t k = 0; k < r; ++k) {
-    double length = 0;
-    for (std::size_t f = 0; f < n; ++f) length = std::hypot(length, g[k][f] = (s[k][f].lo() + s[k][f].hi()) / 2);
-    for (double& x : g[k]) x *= signs[cell.mixed[k]] / length;
+    for (std::size_t f = 0; f < n; ++f) g(k, f) = s[k][f].mid();
+    g.row(k) *= signs[cell.mixed[k]] / g.row(k).norm();
   }
-  std::vector<double> products;
-  for (const Direction& a : g)
-    for (const Direction& b : g) products.push_back(std::inner_product(a.begin(), a.end(), b.begin(), 0.0));
-  const std::vector<double> inverted = inverse(products, r);
-  Direction d(n, 0.0);
-  for (std::size_t i = 0; i < inverted.size(); ++i)
-    for (std::size_t f = 0; f < n; ++f) d[f] += inverted[i] * g[i / r][f];
+  const Eigen::VectorXd d = g.transpose() * (inverse(g * g.transpose()) * Eigen::VectorXd::Ones(g.rows()));
   const auto all_grow = [&](const Direction& along) { return grows(cell, s, along, signs); };
-  if (std::ranges::all_of(d, [](double x) { return std::isfinite(x); }) && all_grow(d)) return true;
+  if (d.allFinite() && all_grow({d.begin(), d.end()})) return true;
   Direction widths;
   for (const int f : *cell.free) widths.push_back(cell.sides[f].width());
   return std::ranges::any_of(directions(widths), all_grow);

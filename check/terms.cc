@@ -183,18 +183,8 @@ std::optional<Terms> Terms::times(const Factors& powers) const {
   return result;
 }
 
-Terms operator-(const Terms& f, const ExactNumber& c) {
-  Terms result = f;
-  result.add({}, {-c, Enclosure(-c), false});
-  result.drop_zeros();
-  return result;
-}
-
-Terms operator-(const Terms& f) {
-  Terms result = f;
-  for (auto& [factors, c] : result.list_) c = {-c.exact, -c.range, c.tolerant};
-  return result;
-}
+Terms operator-(const Terms& f, const ExactNumber& c) { return f.plus(-1, Terms(c)); }
+Terms operator-(const Terms& f) { return Terms().plus(-1, f); }
 
 namespace {
 

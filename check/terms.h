@@ -57,8 +57,6 @@ class Terms {
   Terms plus(const ExactNumber& q, const Terms& g) const;
   /// this times powers of variables; nothing where a sine or cosine would become a factor.
   std::optional<Terms> times(const Factors& powers) const;
-  friend Terms operator-(const Terms& f, const ExactNumber& c);
-  friend Terms operator-(const Terms& f);
 
  private:
   void add(const Factors& factors, const Coefficient& c);
@@ -66,6 +64,9 @@ class Terms {
 
   std::map<Factors, Coefficient> list_;
 };
+
+Terms operator-(const Terms& f, const ExactNumber& c);
+Terms operator-(const Terms& f);
 
 /// A reduced system. Variables keep their indices in the original one.
 struct Reduced {

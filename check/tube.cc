@@ -95,8 +95,7 @@ class TubeCheck {
   // F, then (1 − t)(T·x − c) + t (T'·x − c'), with t the variable after those of x.
   std::vector<Row> equations(const TubeNode& a, const TubeNode& b) const {
     const int t = system_.size();
-    std::vector<Row> rows;
-    for (const Polynomial& f : system_.equations) rows.emplace_back(f, t + 1, system_.coefficient_tolerance);
+    std::vector<Row> rows = rows_of(system_.equations, t + 1, system_.coefficient_tolerance);
     for (std::size_t i = 0; i < a.values.size(); ++i) {
       const ExactNumber c = ExactNumber::dyadic(a.values[i]), c_next = ExactNumber::dyadic(b.values[i]);
       Polynomial f;

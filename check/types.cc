@@ -5,12 +5,13 @@
 namespace corank::check {
 namespace {
 
-std::string what_fails(SingularityType type, bool proven) {
-  return std::string("it is not shown that its solutions are ") + (proven ? "" : "not ") + to_string(type);
-}
-
-bool says(const TypeLabels& labels, SingularityType type, bool proven) {
-  return ((proven ? labels.proven : labels.excluded) & bit(type)) != 0;
+// Of the labels the first one that is not confirmed; nothing where all are.
+std::string first_fault(const TypeLabels& labels, const auto& confirms) {
+  for (const bool proven : {true, false})
+    for (const SingularityType type : kSingularityTypes)
+      if (((proven ? labels.proven : labels.excluded) & bit(type)) != 0 && !confirms(type, proven))
+        return std::string("it is not shown that its solutions are ") + (proven ? "" : "not ") + to_string(type);
+  return {};
 }
 
 // A side of the mechanism: inputs locked, or outputs.
@@ -88,11 +89,7 @@ TypeCheck::TypeCheck(const System& system, const VelocityBlocks& blocks, const S
 }
 
 std::string TypeCheck::of_box(const TypeLabels& labels, const Box& box) const {
-  const InBox in_box(*this, box);
-  for (const bool proven : {true, false})
-    for (const SingularityType type : kSingularityTypes)
-      if (says(labels, type, proven) && !in_box.shows(type, proven)) return what_fails(type, proven);
-  return {};
+  return first_fault(labels, [in_box = InBox(*this, box)](auto type, bool proven) { return in_box.shows(type, proven); });
 }
 
 std::string TypeCheck::of_point(const TypeLabels& labels, const ExactCheck& point) const {
@@ -118,10 +115,7 @@ std::string TypeCheck::of_point(const TypeLabels& labels, const ExactCheck& poin
     }
     return false;
   };
-  for (const bool proven : {true, false})
-    for (const SingularityType type : kSingularityTypes)
-      if (says(labels, type, proven) && has(type) != proven) return what_fails(type, proven);
-  return {};
+  return first_fault(labels, [&](SingularityType type, bool proven) { return has(type) == proven; });
 }
 
 }  // namespace corank::check

@@ -25,11 +25,15 @@ std::size_t bits(const mpq_class& q) {
 
 [[noreturn]] void too_long() { throw std::domain_error("a number of more than 100000 bits"); }
 
+NodePtr finished(Node node) {
+  if (bits(node.value) > kMaxBits) too_long();
+  return std::make_shared<const Node>(std::move(node));
+}
+
 NodePtr make_rational(mpq_class q) {
-  if (bits(q) > kMaxBits) too_long();
   Node node;
   node.value = std::move(q);
-  return std::make_shared<const Node>(std::move(node));
+  return finished(std::move(node));
 }
 
 bool is_rational(const NodePtr& x) { return x->kind == Kind::rational; }
@@ -101,8 +105,7 @@ NodePtr make_sum(const NodePtr& x, const NodePtr& y) {
   }
   if (sum.operands.empty()) return make_rational(sum.value);
   if (sum.operands.size() == 1 && sum.value == 0) return sum.operands[0];
-  if (bits(sum.value) > kMaxBits) too_long();
-  return std::make_shared<const Node>(std::move(sum));
+  return finished(std::move(sum));
 }
 
 // √q of a rational number q ≥ 0: its square is q.
@@ -129,10 +132,9 @@ NodePtr distribute(const mpq_class& c, const NodePtr& sum) {
   Node result;
   result.kind = Kind::sum;
   result.value = c * sum->value;
-  if (bits(result.value) > kMaxBits) too_long();
   const NodePtr factor = make_rational(c);
   for (const NodePtr& operand : sum->operands) result.operands.push_back(make_product(factor, operand));
-  return std::make_shared<const Node>(std::move(result));
+  return finished(std::move(result));
 }
 
 NodePtr make_product(const NodePtr& x, const NodePtr& y) {
@@ -153,10 +155,9 @@ NodePtr make_product(const NodePtr& x, const NodePtr& y) {
   }
   if (product.value == 0 || product.operands.empty()) return make_rational(product.value);
   if (product.operands.size() == 1 && product.value == 1) return product.operands[0];
-  if (bits(product.value) > kMaxBits) too_long();
-  std::stable_partition(product.operands.begin(), product.operands.end(),
-                        [](const NodePtr& f) { return f->kind != Kind::power || f->exponent > 0; });
-  return std::make_shared<const Node>(std::move(product));
+  std::ranges::stable_partition(product.operands,
+                                [](const NodePtr& f) { return f->kind != Kind::power || f->exponent > 0; });
+  return finished(std::move(product));
 }
 
 NodePtr make_power(const NodePtr& x, int n) {
@@ -188,7 +189,7 @@ NodePtr make_power(const NodePtr& x, int n) {
   power.kind = Kind::power;
   power.exponent = n;
   power.operands = {x};
-  return std::make_shared<const Node>(std::move(power));
+  return finished(std::move(power));
 }
 
 // Digits with an optional sign, a point and an exponent; nothing where the text is none of these.
@@ -246,12 +247,8 @@ ExactNumber ExactNumber::rational(const std::string& text) {
     const std::string below = text.substr(slash + 1);
     const bool integers = text.find_first_of(".eE") == std::string::npos && below.find_first_of("+-") == std::string::npos;
     const std::optional<mpq_class> d = integers ? parse_decimal(below) : std::nullopt;
-    if (!d) {
-      q.reset();
-    } else {
-      if (*d == 0) throw std::domain_error("division by zero in " + text);
-      *q /= *d;
-    }
+    if (d && *d == 0) throw std::domain_error("division by zero in " + text);
+    q = d ? std::optional<mpq_class>(*q / *d) : std::nullopt;
   }
   if (!q) throw std::invalid_argument("`" + text + "` is not a number such as 12, -3/4, 0.90 or 1e-6");
   return ExactNumber(make_rational(*q));
@@ -260,7 +257,7 @@ ExactNumber ExactNumber::rational(const std::string& text) {
 ExactNumber ExactNumber::pi() {
   Node node;
   node.kind = Kind::pi;
-  return ExactNumber(std::make_shared<const Node>(std::move(node)));
+  return ExactNumber(finished(std::move(node)));
 }
 
 ExactNumber ExactNumber::apply(ConstantFunction f, const ExactNumber& x) {
@@ -280,7 +277,7 @@ ExactNumber ExactNumber::apply(ConstantFunction f, const ExactNumber& x) {
   node.kind = Kind::function;
   node.function = f;
   node.operands = {x.node_};
-  return ExactNumber(std::make_shared<const Node>(std::move(node)));
+  return ExactNumber(finished(std::move(node)));
 }
 
 ExactNumber operator+(const ExactNumber& x, const ExactNumber& y) { return ExactNumber(make_sum(x.node_, y.node_)); }

@@ -165,7 +165,7 @@ class Drawer {
 
   Corner corner(const SignCell& cell, const Box& box) {
     Corner result;
-    for (const Interval& side : box) result.x.push_back(side.mid());
+    result.x = midpoint(box);
     for (const Interval& g : cells_.cell_over(cell, box).range) result.g.push_back(g.mid());
     return result;
   }

@@ -10,13 +10,13 @@
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
-namespace {
 
-// The k-th of n equal parts; neighbours share their end.
-Interval part(const Interval& side, int k, int n) {
+Interval part_of(const Interval& side, int k, int n) {
   const auto at = [&](int j) { return j == n ? side.hi() : side.lo() + (side.hi() - side.lo()) * j / n; };
   return {at(k), at(k + 1)};
 }
+
+namespace {
 
 const char* word(MapCell::Robot robot) {
   constexpr std::array kWords{"assembled", "not in the middle", "nowhere"};
@@ -67,7 +67,7 @@ ClearanceMap clearance_map(const study::Question& question, const BallOptions& b
   for (int row = 0; row < options.grid && !map.empty; ++row)
     for (int column = 0; column < options.grid && !map.empty && !control.search_ended(); ++column) {
       MapCell cell;
-      cell.sides = {part(map.region[0], column, options.grid), part(map.region[1], row, options.grid)};
+      cell.sides = {part_of(map.region[0], column, options.grid), part_of(map.region[1], row, options.grid)};
       cell.middle = {cell.sides[0].mid(), cell.sides[1].mid()};
       examine(field, options, map, cell);
       map.cells.push_back(std::move(cell));

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "corank/analyze/aspects/aspects.h"
+#include "corank/analyze/clearance/clearance_map.h"
 #include "corank/analyze/sets/fold_system.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/certify/requirement.h"
@@ -39,13 +40,6 @@ constexpr double kFoldWidth = 1;       // of a box of the curve, in edges of the
 solve::Control::Limits as_of(const solve::Control& all) {
   const solve::Control::Limits rest = all.rest(0, 0);
   return {.time = rest.time, .stop = rest.stop, .clock = rest.clock};
-}
-
-Interval part_of(const Interval& side, int k, int n) {
-  const auto at = [&](int j) {
-    return j == 0 ? side.lo() : j == n ? side.hi() : side.lo() + (side.hi() - side.lo()) * j / n;
-  };
-  return {at(k), at(k + 1)};
 }
 
 }  // namespace

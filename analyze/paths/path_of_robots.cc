@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebra/exact_value.h"
 
@@ -104,11 +105,9 @@ bool PathOfRobots::cover(const std::vector<Interval>& robots, std::vector<std::v
 }
 
 std::string PathOfRobots::drawn(const solve::Control& control) {
-  Values x;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const std::size_t piece = std::min(k, families_.size() - 1);
-    x.clear();
-    for (const Interval& side : nodes_[k].box) x.push_back(side.mid());
+    Values x = midpoint(nodes_[k].box);
     for (std::size_t j = 0; j < parameters_.size(); ++j) x[parameters_[j]] = drawn_[j].mid();
     x.push_back(k == piece ? 0 : 1);
     if (!family(piece).approach(x)) return "a node of the path is no configuration of the robot as drawn";

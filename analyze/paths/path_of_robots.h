@@ -64,6 +64,8 @@ class PathOfRobots {
   std::vector<std::vector<int>> corners() const;
   std::optional<Place> worst(const solve::Control& control);
 
+  // The configuration there of the robot as drawn, on its path; nothing where that is not proven.
+  std::optional<Box> drawn_at(const Place& place);
   // Of the segment's robots up to that share: the function that begins at the drawn one's configuration. Empty: not proven.
   std::vector<SolutionFamily::Cell> from_drawn(Segment& segment, const Box& drawn, double share,
                                                const solve::Control& control);

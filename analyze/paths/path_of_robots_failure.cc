@@ -207,6 +207,11 @@ PathOfRobots::Failure PathOfRobots::failure_of(const Segment& segment, const Box
   return result;
 }
 
+std::optional<Box> PathOfRobots::drawn_at(const Place& place) {
+  std::optional<Box> drawn = family(place.piece).solution(free_sides(drawn_, Interval(place.t)), points_[place.piece]);
+  return drawn && holds(drawn_cells_[place.piece], *drawn) ? drawn : std::nullopt;
+}
+
 std::vector<SolutionFamily::Cell> PathOfRobots::from_drawn(Segment& segment, const Box& drawn, double share,
                                                            const solve::Control& control) {
   Values near = midpoint(drawn);
@@ -226,8 +231,8 @@ std::vector<SolutionFamily::Cell> PathOfRobots::from_drawn(Segment& segment, con
 std::optional<PathOfRobots::Failure> PathOfRobots::prove_crossing(Segment& segment, double share,
                                                                   const solve::Control& control) {
   const Place& place = segment.place;
-  const std::optional<Box> drawn = family(place.piece).solution(free_sides(drawn_, Interval(place.t)), points_[place.piece]);
-  if (!drawn || !holds(drawn_cells_[place.piece], *drawn)) return std::nullopt;
+  const std::optional<Box> drawn = drawn_at(place);
+  if (!drawn) return std::nullopt;
   const std::vector<SolutionFamily::Cell> cells = from_drawn(segment, *drawn, share, control);
   const std::optional<Values> there = of_robot(place, share);
   if (!there || cells.empty()) return std::nullopt;
@@ -273,8 +278,8 @@ std::optional<PathOfRobots::Failure> PathOfRobots::failure(const solve::Control&
 std::optional<PathOfRobots::Failure> PathOfRobots::prove_fold(Segment& segment, double share,
                                                               const solve::Control& control) {
   const Place& place = segment.place;
-  const std::optional<Box> drawn = family(place.piece).solution(free_sides(drawn_, Interval(place.t)), points_[place.piece]);
-  if (!drawn || !holds(drawn_cells_[place.piece], *drawn)) return std::nullopt;
+  const std::optional<Box> drawn = drawn_at(place);
+  if (!drawn) return std::nullopt;
   for (const double less : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
     const double before = share * (1 - less);
     const std::optional<Values> point = of_robot(place, before);

@@ -16,17 +16,10 @@ namespace {
 constexpr double kTiny = 1e-12;                 // about a point, for a proof to begin with
 constexpr double kNarrowest = 1.0 / (1 << 12);  // of a cell, relative to the whole
 
-std::vector<int> others(const std::vector<int>& free, int size) {
-  std::vector<int> result;
-  for (int j = 0; j < size; ++j)
-    if (std::ranges::find(free, j) == free.end()) result.push_back(j);
-  return result;
-}
-
 }  // namespace
 
 SolutionFamily::SolutionFamily(const System& system, std::vector<int> free)
-    : system_(system), compiled_(system), free_(std::move(free)), dependent_(others(free_, system.size())) {
+    : system_(system), compiled_(system), free_(std::move(free)), dependent_(all_but(free_, system.size())) {
   CORANK_CHECK(static_cast<int>(dependent_.size()) == compiled_.equations());
 }
 

@@ -269,7 +269,7 @@ std::optional<PieceLink> CellParts::meeting(const Box& piece, const SignCell& ce
 }
 
 std::vector<int> CellParts::free_of(const certify::Sheet& sheet) const {
-  return solve::other_variables(sheet.dependent, cells_.system().size());
+  return all_but(sheet.dependent, cells_.system().size());
 }
 
 // Of the links those that join what cells of one sheet do not join by themselves: where one of two that meet is all of one

@@ -70,7 +70,7 @@ std::optional<Climb> Climber::climb(const Box& from, std::vector<double> c, cons
       if (sheet.proven && cells_.signs(sheet.region) == signs) break;
     }
     if (radius <= kSmallest) return std::nullopt;
-    SheetBridge own{solve::other_variables(sheet.dependent, cells_.system().size()), std::move(sheet.region)};
+    SheetBridge own{all_but(sheet.dependent, cells_.system().size()), std::move(sheet.region)};
     const auto meets = [&](const Box& box) {
       Box common = own.region;
       if (!intersect(common, box)) return false;
@@ -78,7 +78,7 @@ std::optional<Climb> Climber::climb(const Box& from, std::vector<double> c, cons
       if (!at) at = test_.sheet_in(common, common);  // as from a point on the border of a cell
       if (!at) return false;
       c = midpoint(at->image);
-      result.links.push_back({c, solve::other_variables(at->dependent, cells_.system().size())});
+      result.links.push_back({c, all_but(at->dependent, cells_.system().size())});
       return true;
     };
     if (!meets(result.sheets.empty() ? from : result.sheets.back().region)) return std::nullopt;

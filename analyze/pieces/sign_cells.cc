@@ -50,7 +50,7 @@ SignCells::SignCells(const System& system, const Cover& cover, const std::vector
     SignCell cell{{box.free, box.box}, static_cast<int>(i)};
     // The sheet of a `boundary` box may go on beyond the domain.
     if (box.verdict == Verdict::boundary)
-      for (const int d : solve::other_variables(box.free, system.size())) cell.sides[d] = region(cell)[d];
+      for (const int d : all_but(box.free, system.size())) cell.sides[d] = region(cell)[d];
     if (control.ended()) {
       for (int k = 0; k < this->functions(); ++k) cell.mixed.push_back(k);
       cell.range.assign(cell.mixed.size(), Interval(-HUGE_VAL, HUGE_VAL));
@@ -92,7 +92,7 @@ bool SignCells::is_covered_before(const SignCell& cell) const {
 const Box& SignCells::region(const SignCell& cell) const { return cover_.regions[cover_.boxes[cell.box].region]; }
 
 void SignCells::evaluate(SignCell& cell) {
-  const std::vector<int> dependent = solve::other_variables(cell.free, system_.size());
+  const std::vector<int> dependent = all_but(cell.free, system_.size());
   const auto widest = [&] {
     double most = 0;
     for (const int j : dependent) most = std::max(most, cell.sides[j].width() / proof_.compiled().scales()[j]);
@@ -212,7 +212,7 @@ std::optional<SignCell> SignCells::sheet_over(const std::vector<std::size_t>& ce
   CoverBox box;
   box.box = std::move(sheet.image);
   box.verdict = Verdict::regular;
-  box.free = solve::other_variables(sheet.dependent, system_.size());
+  box.free = all_but(sheet.dependent, system_.size());
   box.region = static_cast<int>(cover_.regions.size());
   cover_.regions.push_back(std::move(sheet.region));
   cover_.boxes.push_back(std::move(box));

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <mutex>
 #include <numbers>
@@ -29,14 +30,11 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 double number_of(const std::string& text, const symbolic::SourceLocation& where) {
-  std::size_t end = 0;
-  double value = NAN;
-  try {
-    value = std::stod(text, &end);
-  } catch (const std::logic_error&) {
-    end = 0;
-  }
-  if (end == 0 || end != text.size() || !std::isfinite(value))
+  double value = 0;
+  const bool has_plus = text.starts_with('+') && !text.starts_with("+-");
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data() + has_plus, last, value);
+  if (error != std::errc() || end != last || !std::isfinite(value))
     throw ModelError(where, "'" + text + "' is no number", "a number");
   return value;
 }

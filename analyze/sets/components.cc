@@ -179,7 +179,7 @@ class Linker {
       if (!first || !second) continue;
       sets_.union_set(r, s);
       const int number = static_cast<int>(cover_.regions.size() + bridges_.size());
-      bridges_.push_back({solve::other_variables(piece.dependent, system_.size()), piece.region});
+      bridges_.push_back({all_but(piece.dependent, system_.size()), piece.region});
       links_.push_back(link(region_numbers_[r], number, *first));
       links_.push_back(link(region_numbers_[s], number, *second));
       return;
@@ -198,7 +198,7 @@ class Linker {
   }
 
   SheetLink link(int a, int b, const certify::Sheet& point) const {
-    return {a, b, solve::other_variables(point.dependent, system_.size()), midpoint(point.image)};
+    return {a, b, all_but(point.dependent, system_.size()), midpoint(point.image)};
   }
 
   void join(std::size_t r, std::size_t s, const certify::Sheet& point) {

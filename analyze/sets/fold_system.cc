@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/core/box.h"
 #include "corank/solve/step/problem.h"
 
 namespace corank::analyze {
@@ -45,7 +46,7 @@ std::optional<System> fold_system(const System& system, const std::vector<int>& 
   result.inequalities = system.inequalities;
   result.equations = system.equations;
   const int n = system.size();
-  const std::vector<int> unknowns = solve::other_variables(parameters, n);
+  const std::vector<int> unknowns = all_but(parameters, n);
   for (const int j : unknowns) result.variables[j].auxiliary = true;
   for (const int p : parameters)
     if (!system.variables[p].is_parameter()) result.variables[p].kind = VariableKind::length;

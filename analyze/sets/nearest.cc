@@ -277,7 +277,7 @@ Nearest Search::run() {
   }
   if (unproven_square_ < upper_ && !unproven_.empty()) {
     const Box point(unproven_.begin(), unproven_.end());
-    for (const Interval& side : lifted(compiled_, prepared_.reduction, point)) result.unproven.push_back(side.mid());
+    result.unproven = midpoint(lifted(compiled_, prepared_.reduction, point));
     result.unproven_distance = root_above(unproven_square_);
   }
   return result;
@@ -328,7 +328,7 @@ std::optional<Witness> prove_near(const certify::CompiledSystem& system, const c
   if (p.rank() < system.equations()) return std::nullopt;
   Witness witness{certify::newton_prove(system, p, x, workspace), {}};
   if (!witness.sheet.proven || domain.locate(system, witness.sheet.image) != certify::Location::inside) return std::nullopt;
-  witness.free = solve::other_variables(p.dependent, system.variables());
+  witness.free = all_but(p.dependent, system.variables());
   return witness;
 }
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "corank/core/box.h"
 #include "corank/report/html/page_assets.h"
 #include "corank/report/html/page_data.h"
 #include "corank/report/html/page_words.h"
@@ -55,8 +56,7 @@ std::optional<std::string> robot_data(const fs::path& file, int number) {
     result.cover.boxes.clear();
     result.cover.points.clear();
     result.cover.self_motions.clear();
-    Json values = Json::array();
-    for (std::size_t j = 0; j < box.size(); ++j) values.push_back(box[j].mid());
+    const Json values = midpoint(box);
     std::string model;
     if (mechanism.is_plain_system()) {
       model = drawing_model(mechanism, result::system_of(mechanism, result));

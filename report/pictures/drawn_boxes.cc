@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "corank/core/box.h"
 #include "corank/core/spread.h"
 
 namespace corank::report {
@@ -51,7 +52,7 @@ class Hulls {
     hull.types = first.types;
     for (Place k = begin + 1; k != end; ++k) {
       const CoverBox& b = boxes_[*k];
-      for (std::size_t j = 0; j < hull.box.size(); ++j) hull.box[j] = Interval::hull(hull.box[j], b.box[j]);
+      include(hull.box, b.box);
       hull.types.proven &= b.types.proven;
       hull.types.excluded &= b.types.excluded;
     }

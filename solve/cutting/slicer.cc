@@ -191,7 +191,7 @@ void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, FoundList& f
   }
   Box region = sheet.region;
   problem_.append_values(region);
-  const std::vector<int> free = other_variables(sheet.dependent, problem_.compiled.variables());
+  const std::vector<int> free = all_but(sheet.dependent, problem_.compiled.variables());
   const Preconditioner p = preconditioners_.at_midpoint(sheet.image, &sheet.dependent, &sheet.equations);
   Task task{sheet,
             x,

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "corank/certify/domain.h"
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/step/box_order.h"
@@ -286,7 +287,7 @@ class Merger {
       if (hull[j].width() > problem_.sigma[j]) return false;
     }
     hull.resize(n);
-    const std::vector<int> dependent = other_variables(a.free, system.variables());
+    const std::vector<int> dependent = all_but(a.free, system.variables());
     const auto& p = preconditioners_.at_midpoint(hull, &dependent);
     if (p.rank() < system.equations()) return false;
     certify::Sheet sheet = certify::newton_prove(system, p, hull, workspace_);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "corank/core/box.h"
 #include "corank/solve/step/heuristics.h"
 #include "corank/solve/store/strata.h"
 
@@ -41,7 +42,7 @@ certify::Sheet BoxProcessor::prove_partially(std::span<const Interval> x) {
   const auto& p = preconditioners_.near_solution(wide, problem_.rank_tolerance);
   certify::Sheet sheet = certify::newton_prove(problem_.compiled, p, wide, workspace_);
   if (!sheet.proven || !problem_.is_partial(sheet)) return sheet;
-  const std::vector<int> free = other_variables(sheet.dependent, problem_.compiled.variables());
+  const std::vector<int> free = all_but(sheet.dependent, problem_.compiled.variables());
   if (!slicer_.holds_on_parts(sheet, free, sheet.image, kPartialDepth)) return {};
   for (int j : free) sheet.region[j] = sheet.image[j] = x[j];  // for every value of the free variables: so for x's too
   return sheet;
@@ -81,14 +82,18 @@ void BoxProcessor::leave(const Waiting& box) {
   }
 }
 
-int BoxProcessor::widest_free(std::span<const Interval> x) {
+int BoxProcessor::widest_of(const std::vector<int>& sides, std::span<const Interval> x) const {
   const std::vector<double>& scales = problem_.compiled.scales();
   int widest = -1;
-  for (int j : problem_.without_parameters(other_variables(dependent_, problem_.compiled.variables()))) {
-    if (!settled_.empty() && settled_[j]) continue;
+  for (const int j : sides)
     if (widest < 0 || x[j].width() * scales[widest] > x[widest].width() * scales[j]) widest = j;
-  }
   return widest;
+}
+
+int BoxProcessor::widest_free(std::span<const Interval> x) {
+  std::vector<int> free = problem_.without_parameters(all_but(dependent_, problem_.compiled.variables()));
+  if (!settled_.empty()) std::erase_if(free, [&](int j) { return settled_[j]; });
+  return widest_of(free, x);
 }
 
 void BoxProcessor::find_settled(std::span<const Interval> x) {
@@ -130,9 +135,7 @@ bool BoxProcessor::cut(const Proven& proven, bool whole) {
 }
 
 std::vector<double> BoxProcessor::midpoint(std::span<const Interval> x) const {
-  std::vector<double> result;
-  for (int j = 0; j < problem_.compiled.variables(); ++j) result.push_back(x[j].mid());
-  return result;
+  return corank::midpoint(x.first(problem_.compiled.variables()));
 }
 
 std::optional<LocalSolution> BoxProcessor::degenerate_solution(std::span<const Interval> x, double share) const {
@@ -219,14 +222,10 @@ BoxProcessor::Outcome BoxProcessor::give_up(std::span<Interval> x, Reason reason
 }
 
 int BoxProcessor::widest(std::span<const Interval> x, double share) const {
-  const std::vector<double>& scales = problem_.compiled.scales();
   const std::vector<double> finest = problem_.limits(share);
-  int widest = -1;
-  for (int j = 0; j < problem_.compiled.variables(); ++j) {
-    if (x[j].width() <= finest[j] || !split_point(x[j])) continue;
-    if (widest < 0 || x[j].width() * scales[widest] > x[widest].width() * scales[j]) widest = j;
-  }
-  return widest;
+  std::vector<int> cuttable = all_but({}, problem_.compiled.variables());
+  std::erase_if(cuttable, [&](int j) { return x[j].width() <= finest[j] || !split_point(x[j]); });
+  return widest_of(cuttable, x);
 }
 
 BoxProcessor::Outcome BoxProcessor::process_in_tube(std::span<Interval> x, int stratum, double postpone, double share) {

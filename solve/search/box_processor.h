@@ -51,6 +51,8 @@ class BoxProcessor {
   // Problem::limits for these sides; the others may be as wide as they are.
   enum class Sides { open, settled };
   std::vector<double> limits(double share, Sides of) const;
+  // Of these sides the one that is widest in typical sizes; −1: there is none.
+  int widest_of(const std::vector<int>& sides, std::span<const Interval> x) const;
   // The widest of the sides that Newton leaves free and that are not settled; −1 where there is none.
   int widest_free(std::span<const Interval> x);
   // The largest ratio of a side that is not settled to its typical size.

@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 #include "corank/core/threads.h"
 #include "corank/solve/cutting/cut_planner.h"
@@ -172,7 +173,7 @@ class Estimator {
     const certify::NewtonStep step = certify::tighten_sheet(problem_.compiled, p, sides, workspace_);
     problem_.append_values(sides);
     double product = 1;
-    const std::vector<int> free = other_variables(sheet.dependent, problem_.compiled.variables());
+    const std::vector<int> free = all_but(sheet.dependent, problem_.compiled.variables());
     for (const int count :
          planner_.parts(step, problem_.without_parameters(free), sides, planner_.widened_sigma(step, sides)))
       product *= count;

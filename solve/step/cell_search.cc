@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "corank/core/box.h"
 #include "corank/core/check.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/step/heuristics.h"
@@ -13,7 +14,7 @@ namespace corank::solve {
 CellSearch::CellSearch(const Problem& problem, std::vector<int> parameters)
     : problem_(problem),
       parameters_(std::move(parameters)),
-      unknowns_(other_variables(parameters_, problem.compiled.variables())),
+      unknowns_(all_but(parameters_, problem.compiled.variables())),
       preconditioners_(problem.compiled, problem.ended) {
   CORANK_CHECK(static_cast<int>(unknowns_.size()) == problem.compiled.equations());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "corank/core/box.h"
 #include "corank/core/lanes.h"
 #include "corank/solve/step/problem.h"
 #include "corank/solve/step/recorder.h"
@@ -69,8 +70,7 @@ const certify::Preconditioner& PreconditionerFactory::at_midpoint(std::span<cons
 
 const certify::Preconditioner& PreconditionerFactory::near_solution(std::span<const Interval> x, double rank_tolerance,
                                                                     const std::vector<int>* rows) {
-  center_.resize(n_);
-  for (int j = 0; j < n_; ++j) center_[j] = x[j].mid();
+  center_ = midpoint(x.first(n_));
   double former = HUGE_VAL;
   for (int step = 0; step < kGaussNewtonSteps; ++step) {
     at_center(nullptr, rows, rank_tolerance);
@@ -162,7 +162,7 @@ std::vector<int> PreconditionerFactory::chart_of_last(const std::vector<double>&
   const auto size = [&](int j) { return sizes[j]; };
   const std::vector<int>& dependent = result_.dependent;
   Chart chart;  // in units of the sizes
-  chart.free = other_variables(dependent, n_);
+  chart.free = all_but(dependent, n_);
   const std::vector<int>& parameters = system_.parameters();
   std::erase_if(chart.free, [&](int j) { return std::ranges::binary_search(parameters, j); });
   const std::size_t k = chart.free.size();
@@ -177,7 +177,7 @@ std::vector<int> PreconditionerFactory::chart_of_last(const std::vector<double>&
   }
   improve(chart, gain);
   chart.free.insert(chart.free.end(), parameters.begin(), parameters.end());
-  return other_variables(chart.free, n_);
+  return all_but(chart.free, n_);
 }
 
 void improve(Chart& chart, double gain) {

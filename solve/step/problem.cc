@@ -93,11 +93,4 @@ std::vector<int> Problem::without_parameters(std::vector<int> variables) const {
   return variables;
 }
 
-std::vector<int> other_variables(const std::vector<int>& given, int variables) {
-  std::vector<int> others;
-  for (int j = 0; j < variables; ++j)
-    if (std::ranges::find(given, j) == given.end()) others.push_back(j);
-  return others;
-}
-
 }  // namespace corank::solve

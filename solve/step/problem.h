@@ -93,8 +93,4 @@ using FoundList =
     boost::container::deque<Found, void,
                             boost::container::deque_options_t<boost::container::block_bytes<std::size_t{1} << 16>>>;
 
-/// The variables 0 … variables − 1 that are not among those given, in order: the free ones of the dependent ones, and the
-/// reverse.
-std::vector<int> other_variables(const std::vector<int>& given, int variables);
-
 }  // namespace corank::solve

@@ -52,13 +52,6 @@ RationalPolynomial RationalPolynomial::unknown(const PolynomialRing& ring, std::
   return result;
 }
 
-RationalPolynomial RationalPolynomial::term(const PolynomialRing& ring, const Term& term) {
-  RationalPolynomial result = number(ring, term.coefficient);
-  for (std::size_t k = 0; k < term.powers.size(); ++k)
-    if (term.powers[k] > 0) result = result * unknown(ring, k).power(term.powers[k]);
-  return result;
-}
-
 RationalPolynomial::RationalPolynomial(const RationalPolynomial& other) : RationalPolynomial(other.ring_) {
   fmpq_mpoly_set(value_, other.value_, ring_.context());
 }

@@ -36,7 +36,6 @@ class RationalPolynomial {
   /// A rational number as "-3/4".
   static RationalPolynomial number(const PolynomialRing& ring, const std::string& value);
   static RationalPolynomial unknown(const PolynomialRing& ring, std::size_t index);
-  static RationalPolynomial term(const PolynomialRing& ring, const Term& term);
   RationalPolynomial(const RationalPolynomial& other);
   RationalPolynomial(RationalPolynomial&& other) noexcept;
   RationalPolynomial& operator=(RationalPolynomial other) noexcept;

@@ -12,6 +12,7 @@
 #include "corank/certify/polynomial_algebra.h"
 #include "corank/certify/refinement.h"
 #include "corank/core/rounding.h"
+#include "corank/tests/applied_steps.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::certify {

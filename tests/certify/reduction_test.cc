@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "corank/core/check.h"
+#include "corank/tests/applied_steps.h"
 #include "corank/tests/system_builder.h"
 
 namespace corank::certify {

@@ -12,16 +12,16 @@ namespace {
 using Center = Krawczyk::Center;
 
 TEST(Contraction, IsStrictInEveryRow) {
-  EXPECT_TRUE(is_contraction({0.9}, 1));
-  EXPECT_FALSE(is_contraction({1}, 1));
-  EXPECT_FALSE(is_contraction({2, 0, 0, 0.1}, 2));
-  EXPECT_FALSE(is_contraction({0.1, 0, 0, 2}, 2));
+  EXPECT_TRUE(is_contraction(Eigen::MatrixXd{{0.9}}));
+  EXPECT_FALSE(is_contraction(Eigen::MatrixXd{{1}}));
+  EXPECT_FALSE(is_contraction(Eigen::MatrixXd{{2, 0}, {0, 0.1}}));
+  EXPECT_FALSE(is_contraction(Eigen::MatrixXd{{0.1, 0}, {0, 2}}));
 }
 
 TEST(Contraction, DoesNotDependOnTheUnitsOfTheRows) {
-  EXPECT_TRUE(is_contraction({0.5, 1e5, 1e-6, 0.5}, 2)) << "spectral radius 0.82";
-  EXPECT_TRUE(is_contraction({0.5, 1e-6, 1e5, 0.5}, 2));
-  EXPECT_FALSE(is_contraction({0.5, 1e5, 1e-5, 0.5}, 2)) << "spectral radius 1.5";
+  EXPECT_TRUE(is_contraction(Eigen::MatrixXd{{0.5, 1e5}, {1e-6, 0.5}})) << "spectral radius 0.82";
+  EXPECT_TRUE(is_contraction(Eigen::MatrixXd{{0.5, 1e-6}, {1e5, 0.5}}));
+  EXPECT_FALSE(is_contraction(Eigen::MatrixXd{{0.5, 1e5}, {1e-5, 0.5}})) << "spectral radius 1.5";
 }
 
 TEST(KrawczyksOperator, DoesNotShowThatASquareIsInjectiveByItsSlopes) {

@@ -15,7 +15,7 @@ TEST(NewtonStep, HoldsTheSolutionsInEachVariable) {
   Search search(problem);
   for (const int dependent : {0, 1}) {
     Sides x{{-1, 5}, {0, 1}};
-    ASSERT_TRUE(search.newton(x, {{0}, {dependent}, {1}}, {2, 0.5}));
+    ASSERT_TRUE(search.newton(x, {{0}, {dependent}, Eigen::MatrixXd{{1}}}, {2, 0.5}));
     for (const double end : {-1.0, 1.0}) EXPECT_TRUE(holds(x[0], end)) << dependent;
     for (const double end : {0.0, 1.0}) EXPECT_TRUE(holds(x[1], end)) << dependent;
     EXPECT_LE(x[0].hi(), 1 + 1e-9) << dependent;

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "corank/core/rounding.h"
+#include "corank/tests/applied_steps.h"
 #include "corank/tests/seeds.h"
 #include "corank/tests/system_builder.h"
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "corank/certify/domain.h"
+#include "corank/tests/applied_steps.h"
 #include "corank/tests/solve/reductions.h"
 
 namespace corank::solve {
