@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "corank/python/bindings.h"
 #include "corank/python/result.h"
 #include "corank/python/watched.h"
@@ -23,7 +25,7 @@ std::vector<report::SetView> views_of(const symbolic::Mechanism& mechanism, cons
   std::vector<report::SetView> views;
   for (const Result& r : results) {
     System system = result::system_of(mechanism, *r);
-    views.push_back(report::set_view(r.drawn(), std::move(system), mechanism.has_own_velocity_equation()));
+    views.push_back(report::set_view(r.on_page(), std::move(system), mechanism.has_own_velocity_equation()));
   }
   return views;
 }
@@ -91,9 +93,9 @@ std::string family_page(const Members& members, const std::string& constant, con
   return report::family_page(list, options);
 }
 
-std::vector<report::PictureSource> sources_of(const std::vector<Result>& results) {
+std::vector<report::PictureSource> sources_of(const std::vector<Result>& results, auto boxes_of) {
   std::vector<report::PictureSource> sources;
-  for (const Result& r : results) sources.push_back(report::picture_view(r.drawn(), r->set));
+  for (const Result& r : results) sources.push_back(report::picture_view(boxes_of(r), r->set));
   return sources;
 }
 
@@ -105,7 +107,7 @@ report::Picture picture(const std::vector<Result>& results, const std::vector<st
   options.color = color == "set"       ? report::ColorScheme::set
                   : color == "verdict" ? report::ColorScheme::verdict
                                        : report::ColorScheme::plain;
-  return report::make_picture(sources_of(results), options);
+  return report::make_picture(sources_of(results, std::mem_fn(&Result::drawn)), options);
 }
 
 py::array_t<double> sides(const report::PictureLayer& layer, std::size_t axes) {
@@ -153,7 +155,7 @@ void write_portrait(const std::filesystem::path& path, const std::vector<Result>
 std::vector<std::string> write_figures(const std::filesystem::path& folder, const std::vector<Result>& results) {
   const py::gil_scoped_release unlocked;
   if (results.empty()) return {};
-  return report::write_figures(folder, mechanism_of(results), sources_of(results), {}).files;
+  return report::write_figures(folder, mechanism_of(results), sources_of(results, std::mem_fn(&Result::on_page)), {}).files;
 }
 
 std::vector<std::string> write_family_figures(const std::filesystem::path& folder,
@@ -161,7 +163,7 @@ std::vector<std::string> write_family_figures(const std::filesystem::path& folde
                                               const std::vector<std::string>& axes, const std::vector<std::string>& titles) {
   const py::gil_scoped_release unlocked;
   std::vector<std::vector<report::PictureSource>> sources;
-  for (const std::vector<Result>& results : members) sources.push_back(sources_of(results));
+  for (const std::vector<Result>& results : members) sources.push_back(sources_of(results, std::mem_fn(&Result::on_page)));
   return report::write_family_figures(folder, sources, axes, titles, {}).files;
 }
 

@@ -8,6 +8,7 @@
 #include "corank/core/check.h"
 #include "corank/python/bindings.h"
 #include "corank/python/watched.h"
+#include "corank/report/html/page.h"
 #include "corank/report/html/set_view.h"
 #include "corank/result/cuik/cuik_files.h"
 #include "corank/result/files/result_file.h"
@@ -159,14 +160,14 @@ py::dict words(const Result& r) {
 
 }  // namespace
 
-const result::Result& Result::drawn() const {
-  std::call_once(drawn_->once, [this] {
-    if (!study::is_whole(*value_)) return;
-    solve::Control control;
-    drawn_->value = study::cut(*value_, {.threads = 0}, control);
+const result::Result& Result::cut(Cut& known, std::uint64_t most) const {
+  std::call_once(known.once, [&] {
+    if (study::is_whole(*value_)) known.value = study::cut_for_page(*value_, {.threads = 0}, most, {});
   });
-  return drawn_->value ? *drawn_->value : *value_;
+  return known.value ? *known.value : *value_;
 }
+
+const result::Result& Result::on_page() const { return cut(*on_page_, report::kPageBoxes); }
 
 BoxArrays::BoxArrays(const std::vector<CoverBox>& boxes, std::size_t n) : size(boxes.size()), variables(n) {
   bounds.reserve(2 * size * n);

@@ -34,9 +34,10 @@ class Result {
   const std::shared_ptr<const result::Result>& shared() const { return value_; }
   std::shared_ptr<const BoxArrays> boxes() const { return arrays(value_->cover.boxes, boxes_); }
   std::shared_ptr<const BoxArrays> points() const { return arrays(value_->cover.points, points_); }
-  /// For a picture: cut where study::is_whole(), once; without the interpreter's lock. Copies share it, and it lives as long
-  /// as they.
-  const result::Result& drawn() const;
+  /// For a picture, or for a page in as many boxes as it shows: cut where study::is_whole(), once; without the interpreter's
+  /// lock. Copies share it, and it lives as long as they.
+  const result::Result& drawn() const { return cut(*drawn_, 0); }
+  const result::Result& on_page() const;
 
  private:
   std::shared_ptr<const BoxArrays> arrays(const std::vector<CoverBox>& boxes,
@@ -45,13 +46,14 @@ class Result {
     return known;
   }
 
-  struct Drawn {
+  struct Cut {
     std::once_flag once;
     std::optional<result::Result> value;  // nothing: the result itself
   };
+  const result::Result& cut(Cut& known, std::uint64_t most) const;
 
   std::shared_ptr<const result::Result> value_;
-  std::shared_ptr<Drawn> drawn_ = std::make_shared<Drawn>();
+  std::shared_ptr<Cut> drawn_ = std::make_shared<Cut>(), on_page_ = std::make_shared<Cut>();
   // Under the interpreter's lock.
   mutable std::shared_ptr<const BoxArrays> boxes_, points_;
 };

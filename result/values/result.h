@@ -99,7 +99,7 @@ struct Result {
   /// has the boxes of all parts, in their order and in the configuration's variables alone, those left out with their
   /// ranges, and leaves what is proven of them to the parts (merge_parts).
   std::string part;
-  std::string condition;  ///< of a part that is a factor's: "d1 - x = 0"
+  std::string condition;  ///< of a part that is a factor's: "d1 - x = 0"; several as "d1 = 0, d2 = 0"
   /// Coordinates that take every value in their ranges, whatever those of the others are: the set is the product of these
   /// ranges with a set in the others, but for coordinates without a declared range, which follow from all.
   std::vector<std::string> free_coordinates;
