@@ -115,8 +115,8 @@ P : position of plat.C range z [900,900]
   }
 }
 
-// A Tripteron: three legs PRRR whose axes are parallel each. The platform only translates: mobility 3, where the joints count
-// 0. Two loops say of leg 1 alone that it does not turn about its axis, which is one row of L.
+// A Tripteron: three legs PRRR, each with parallel axes. The platform only translates: mobility 3, where the joints count 0.
+// Two loops say of leg 1 alone that it does not turn about its axis, which is one row of L.
 TEST(Assembly, LeavesOutVelocitiesThatRepeatOthersInATripteron) {
   const Assembly a = assembled(R"([LINKS]
 base : point O (0,0,0)
