@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <numbers>
 
 #include "corank/kinematics/language/part_file.h"
 #include "corank/kinematics/urdf/urdf.h"
 #include "corank/solve/reduction/reducer.h"
 #include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/model/evaluate.h"
 #include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/singularity_system.h"
@@ -83,6 +86,24 @@ std::optional<std::string> other_names(const kinematics::Robot& robot) {
   return "an output that is a joint has the joint's name, here and in results: " + list;
 }
 
+// Ranges of angles that look like degrees: they limit nothing.
+std::optional<std::string> wide_ranges(const kinematics::Robot& robot, const symbolic::Mechanism& mechanism) {
+  constexpr double kMost = 12 * std::numbers::pi;  // more turns than joints without gears make
+  std::map<std::string, double> values;
+  for (const symbolic::Constant& c : mechanism.constants()) values[c.name] = symbolic::evaluate(c.value, values);
+  std::string list;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const kinematics::Joint& joint = robot.joints[j];
+    if (joint.kind != kinematics::JointKind::revolute || !joint.range() || robot.is_coupled(j)) continue;
+    const auto at = [&](const symbolic::Expression& e) { return symbolic::evaluate(e, values); };
+    if (at(joint.range()->upper) - at(joint.range()->lower) <= kMost) continue;
+    list += (list.empty() ? "" : ", ") + joint.name;
+  }
+  if (list.empty()) return std::nullopt;
+  return fmt::format("the range of {} is more than six turns and limits nothing; numbers are radians, 90 degrees are 90deg",
+                     list);
+}
+
 // Poses in one orientation, of which the position alone is an output (kinematics::assemble).
 std::optional<std::string> only_positions(const kinematics::Robot& robot, const kinematics::Assembly& assembly) {
   std::string list;
@@ -111,6 +132,7 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
                                     symbolic::to_model(model.mechanism));
   for (const auto& one : model.assembly->parallelograms) model.notices.push_back(flat_positions(one));
   if (const auto names = other_names(robot)) model.notices.push_back(*names);
+  if (const auto wide = wide_ranges(robot, model.mechanism)) model.notices.push_back(*wide);
   if (const auto positions = only_positions(robot, *model.assembly)) model.notices.push_back(*positions);
   if (const auto special = paradox(*model.assembly)) model.notices.push_back(*special);
   return model;

@@ -220,7 +220,7 @@ void find_shape_with_ends(const System& system, int dimension, const std::vector
     minima = std::min(minima, count.boundary_minima);
   }
   if (result.heights.empty()) {
-    result.reason = result.reason.empty() ? problem : result.reason + "; " + problem;
+    if (!problem.empty()) result.reason += (result.reason.empty() ? "" : "; ") + problem;
     return;
   }
   result.with_ends = true;

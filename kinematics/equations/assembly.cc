@@ -31,6 +31,16 @@ struct Way {
   bool seek_identities = false, deep = false;
 };
 
+int mobility_of_rates(const Assembly& assembly) {
+  const symbolic::Mechanism& m = assembly.mechanism;
+  return static_cast<int>(m.rates().size()) - static_cast<int>(m.velocity_equations().size());
+}
+
+/// As many velocity equations as its mobility asks for.
+bool has_rates_for(const Assembly& assembly) {
+  return assembly.mechanism.rates().empty() || mobility_of_rates(assembly) == assembly.mobility;
+}
+
 Assembly draft(const Robot& robot, Way way) {
   Algebra algebra(robot);
   const Bodies bodies = bodies_of(robot, algebra);
@@ -64,17 +74,10 @@ Assembly draft(const Robot& robot, Way way) {
   assembly.mobility = static_cast<int>(assembly.mechanism.coordinates().size());
   for (const symbolic::Constraint& c : assembly.mechanism.constraints())
     assembly.mobility -= c.relation.kind == symbolic::Relation::Kind::equal ? 1 : 0;
-  if (!assembly.mechanism.constraints().empty())
+  if (!assembly.mechanism.constraints().empty() && has_rates_for(assembly))
     if (const auto redundancy = sampled_redundancy(symbolic::algebrize(symbolic::plain_system(assembly.mechanism))))
       assembly.mobility_by_rank = assembly.mobility + *redundancy;
   return assembly;
-}
-
-/// As many velocity equations as its mobility asks for.
-bool has_rates_for(const Assembly& assembly) {
-  const symbolic::Mechanism& m = assembly.mechanism;
-  return m.rates().empty() ||
-         static_cast<int>(m.rates().size()) - static_cast<int>(m.velocity_equations().size()) == assembly.mobility;
 }
 
 bool seems_redundant(const Assembly& assembly) { return assembly.mobility_by_rank.value_or(0) > assembly.mobility; }
@@ -94,12 +97,13 @@ Assembly as_asked(const Robot& robot) {
       best = std::move(whole);
       in_branches = false;
     }
-  // Over-constrained, as it seems: other ways to write its loops may show which equations follow from the others.
+  // Over-constrained, as it seems, or its velocities say more than its positions: other ways to write its loops may show
+  // which equations follow from the others.
   for (const bool deep : {false, true}) {
-    if (best.space == Space::planar || !seems_redundant(best)) break;
+    if (best.space == Space::planar || (has_rates_for(best) && !seems_redundant(best))) break;
     try {
       Assembly other = draft(robot, {in_branches, true, deep});
-      if (other.mobility > best.mobility && has_rates_for(other)) best = std::move(other);
+      if (has_rates_for(other) && (!has_rates_for(best) || other.mobility > best.mobility)) best = std::move(other);
     } catch (const symbolic::ModelError&) {  // this way cannot write the robot; the first one could
     }
   }
@@ -135,6 +139,13 @@ Assembly assemble(const Robot& robot) {
   const symbolic::GinacLock lock;
   const LegsInOnePiece legs = legs_in_one_piece(robot);
   Assembly assembly = in_positions_or_poses(legs.robot);
+  if (!has_rates_for(assembly))
+    throw symbolic::ModelError(
+        {robot.file.empty() ? robot.name : robot.file, 0, 0},
+        "the robot is over-constrained, and corank does not find which of its conditions follow from the others: its "
+        "positions seem to have mobility " +
+            std::to_string(assembly.mobility) + ", its velocities " + std::to_string(mobility_of_rates(assembly)),
+        "joints that say nothing twice, such as a spherical one in place of a universal one, or the robot's equations");
   assembly.has_universal_rods =
       std::ranges::any_of(legs.robot.joints, [](const Joint& joint) { return joint.kind == JointKind::universal_rod; });
   assembly.robot = std::make_shared<const Robot>(robot);

@@ -287,7 +287,9 @@ std::array<bool, 3> Draft::output_components(const Output& output, const Vec& va
 }
 
 void Draft::at_least_zero(const ex& e, const std::string& note, const SourceLocation& where) {
-  equations_.push_back({algebra_.clean(e), true, note, where});
+  const ex clean = algebra_.clean(e);
+  if (algebra_.is_constant(clean) && algebra_.sign(clean) > 0) return;
+  equations_.push_back({clean, true, note, where});
 }
 
 ex Draft::rate(const std::string& name, CoordinateKind kind, symbolic::Role role, const SourceLocation& where) {

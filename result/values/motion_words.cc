@@ -106,6 +106,8 @@ class Sentence {
                                                             : symbolic::definition(set).locked) {}
 
   std::string text() {
+    find_staying();
+    find_kernel_equations();
     for (const symbolic::Coordinate& c : mechanism_.coordinates()) {
       const auto angle = std::ranges::find_if(system_.angles, [&](const Angle& a) { return a.name == c.name; });
       if (angle != system_.angles.end()) {
@@ -138,6 +140,39 @@ class Sentence {
     return value && (value->monomials.empty() || (value->monomials.size() == 1 && value->monomials[0].factors.empty()));
   }
 
+  // An angle of which one of cos and sin is a number does not move; nor does what follows from such angles alone.
+  void find_staying() {
+    for (const Angle& a : system_.angles)
+      if (is_constant(a.cosine) || is_constant(a.sine)) staying_.insert({a.cosine, a.sine});
+  }
+  bool stays(int v) const {
+    if (!linear_.value(v)) return staying_.contains(v);
+    for (int other = 0; other < system_.size(); ++other)
+      if (certify::mentions(*linear_.value(v), other) && !staying_.contains(other)) return false;
+    return true;
+  }
+
+  // An equation that gives a component of the kernel vector, which no other equation mentions, says nothing else: it has a
+  // solution for all values of the other variables.
+  void find_kernel_equations() {
+    for (bool more = true; more;) {
+      more = false;
+      for (int v = 0; v < system_.size(); ++v) {
+        const Polynomial* only = nullptr;
+        int mentions = 0;
+        for (const Polynomial& f : linear_.rest()) {
+          if (!is_kernel(v) || gives_kernel_.contains(&f) || !certify::mentions(f, v)) continue;
+          only = &f;
+          ++mentions;
+        }
+        if (mentions != 1 || !certify::solved_for(*only, v)) continue;
+        gives_kernel_.insert(only);
+        given_.insert(v);
+        more = true;
+      }
+    }
+  }
+
   std::optional<Term> term(int v) const {
     const auto& value = linear_.value(v);
     if (!value) return Term{ExactNumber(1), v};
@@ -157,7 +192,7 @@ class Sentence {
     const std::string& coordinate = system_.variables[v].name;
     if (!linear_.value(v)) {
       free_.push_back({coordinate, {v}, false});
-    } else if (is_constant(v)) {
+    } else if (stays(v)) {
       put_fixed(coordinate, relation(v));
     } else {
       following_.push_back(relation(v));
@@ -168,7 +203,8 @@ class Sentence {
     const bool c = is_constant(a.cosine), s = is_constant(a.sine);
     if (c || s) {
       put_fixed(a.name, constant_angle(a));
-      staying_.insert({a.cosine, a.sine});
+    } else if (stays(a.cosine) && stays(a.sine)) {
+      put_fixed(a.name, relation(a.cosine) + ", " + relation(a.sine));
     } else if (!linear_.value(a.cosine) && !linear_.value(a.sine)) {
       free_.push_back({a.name, {a.cosine, a.sine}, true});
     } else if (const auto tied = tied_angle(a)) {
@@ -223,7 +259,7 @@ class Sentence {
   bool turns_freely() const {
     if (open_) return false;
     for (const Polynomial& f : linear_.rest()) {
-      if (f.monomials.empty()) continue;
+      if (f.monomials.empty() || gives_kernel_.contains(&f)) continue;
       bool kernel = false, others = false;
       for (int v = 0; v < system_.size(); ++v) {
         if (certify::mentions(f, v) && !staying_.contains(v)) (is_kernel(v) ? kernel : others) = true;
@@ -256,7 +292,7 @@ class Sentence {
   // set's dimension.
   bool kernel_follows() const {
     for (int v = 0; v < system_.size(); ++v) {
-      if (!is_kernel(v)) continue;
+      if (!is_kernel(v) || given_.contains(v)) continue;
       if (!linear_.value(v)) return false;
       for (int other = 0; other < system_.size(); ++other)
         if (is_kernel(other) && certify::mentions(*linear_.value(v), other)) return false;
@@ -300,7 +336,9 @@ class Sentence {
   std::vector<std::string> locked_, fixed_, following_;
   std::vector<Free> free_;
   std::set<int> staying_;  // cosine and sine of angles that do not move
-  bool open_ = false;      // an angle is bound by one relation
+  std::set<const Polynomial*> gives_kernel_;
+  std::set<int> given_;  // by these
+  bool open_ = false;    // an angle is bound by one relation
 };
 
 }  // namespace

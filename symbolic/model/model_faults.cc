@@ -60,6 +60,12 @@ void Fault::no_operand() const {
   found_instead_of(kOperand);
 }
 
+// Of `l := 100 cm` the unit is read as the next constant's name.
+void Fault::no_assign() const {
+  const bool next_thing = rest.empty() || rest[0] == '[' || rest[0] == '\n' || rest[0] == '\r' || !name_at(rest).empty();
+  found_instead_of(std::string("':=' after the constant's name") + (next_thing ? "; a number has no unit behind it" : ""));
+}
+
 void Fault::no_relation() const {
   if (rest.empty() || rest[0] == ';' || rest[0] == '[') {
     say_behind_last_operand(

@@ -27,6 +27,7 @@ struct Fault {
   [[noreturn]] void say_behind_last_operand(const std::string& problem, const std::string& expectation) const;
 
   [[noreturn]] void no_operand() const;
+  [[noreturn]] void no_assign() const;
   [[noreturn]] void no_relation() const;
   [[noreturn]] void no_equation_end() const;
   [[noreturn]] void no_group_close() const;
@@ -60,7 +61,7 @@ CORANK_FAULT(section_title, fault.found_instead_of("the name of a section"))  //
 CORANK_FAULT(section_close, fault.say("the section's name has no ']' after it", "']'"))
 CORANK_FAULT(known_section, fault.unknown_section())
 CORANK_FAULT(constant_name, fault.found_instead_of("a definition, name := expression, or a section"))
-CORANK_FAULT(assign, fault.found_instead_of("':=' after the constant's name"))
+CORANK_FAULT(assign, fault.no_assign())
 CORANK_FAULT(variable_name,
              fault.found_instead_of("a declaration, name : [lower, upper] or name ~ [lower, upper], or a section"))
 CORANK_FAULT(declarator,

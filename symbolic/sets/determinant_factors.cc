@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "corank/symbolic/model/expression_words.h"
+
 namespace corank::symbolic {
 namespace {
 
@@ -72,6 +74,12 @@ Loci singularity_loci(const Mechanism& mechanism, const Ended& ended) {
   Loci loci;
   loci.matrices = {locked_matrix(mechanism, SingularitySet::forward), locked_matrix(mechanism, SingularitySet::inverse)};
   for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t rows = loci.matrices[k].rows.size(), columns = loci.matrices[k].columns.size();
+    if (rows != columns)
+      throw ModelError({mechanism.name(), 0, 0},
+                       std::string(k == 0 ? "L_y" : "L_z") + " has " + counted(rows, "row") + " and " +
+                           counted(columns, "column") + ", and so no determinant, whose sign tells aspects apart",
+                       k == 0 ? "as many inputs as the mobility" : "as many outputs as the mobility");
     loci.factors[k] = determinant_factors(mechanism, loci.matrices[k], ended, &loci.constants);
     const std::size_t known = loci.all_factors.size();
     for (const Expression& e : loci.factors[k]) loci.places[k].push_back(place_of(e, known, loci.all_factors));

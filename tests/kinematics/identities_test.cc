@@ -115,5 +115,76 @@ P : position of plat.C range z [900,900]
   }
 }
 
+// A Tripteron: three legs PRRR, each with parallel axes. The platform only translates: mobility 3, where the joints count 0.
+// Two loops say of leg 1 alone that it does not turn about its axis, which is one row of L.
+TEST(Assembly, LeavesOutVelocitiesThatRepeatOthersInATripteron) {
+  const Assembly a = assembled(R"([LINKS]
+base : point O (0,0,0)
+s1
+s2
+s3
+k1 : point B (0,1,0)
+k2 : point B (0,0,1)
+k3 : point B (1,0,0)
+m1 : point C (0,1,0)
+m2 : point C (0,0,1)
+m3 : point C (1,0,0)
+plat : point P (0,0,0)
+[JOINTS]
+prismatic d1 : base (0,-1/2,0) + (1,0,0) s1 (0,0,0) + (1,0,0) range [-1,1] actuated
+prismatic d2 : base (0,0,-1/2) + (0,1,0) s2 (0,0,0) + (0,1,0) range [-1,1] actuated
+prismatic d3 : base (-1/2,0,0) + (0,0,1) s3 (0,0,0) + (0,0,1) range [-1,1] actuated
+revolute : s1 (0,0,0) + (1,0,0) k1 (0,0,0) + (1,0,0)
+revolute : k1 B + (1,0,0) m1 (0,0,0) + (1,0,0)
+revolute : m1 C + (1,0,0) plat P + (1,0,0)
+revolute : s2 (0,0,0) + (0,1,0) k2 (0,0,0) + (0,1,0)
+revolute : k2 B + (0,1,0) m2 (0,0,0) + (0,1,0)
+revolute : m2 C + (0,1,0) plat P + (0,1,0)
+revolute : s3 (0,0,0) + (0,0,1) k3 (0,0,0) + (0,0,1)
+revolute : k3 B + (0,0,1) m3 (0,0,0) + (0,0,1)
+revolute : m3 C + (0,0,1) plat P + (0,0,1)
+[OUTPUTS]
+u : position of plat.P
+)");
+  EXPECT_EQ(a.mobility, 3);
+  EXPECT_EQ(a.mobility_by_rank, 3);
+  EXPECT_EQ(a.mechanism.rates().size() - a.mechanism.velocity_equations().size(), 3U);
+  EXPECT_EQ(a.left_out.size(), 1U);
+  EXPECT_NO_THROW(symbolic::derive(a.mechanism));
+  for (const symbolic::Constraint& c : a.mechanism.constraints())
+    EXPECT_EQ(c.relation.kind, symbolic::Relation::Kind::equal) << c.relation.text() << " says nothing";
+}
+
+// Legs 2-RPU and UPR: 22 conditions of which the identities find too few.
+TEST(Assembly, SaysOfWhichOverConstrainedRobotItFindsTooFewIdentities) {
+  EXPECT_EQ(
+      fault_of(R"([LINKS]
+base : point A1 (0,1,0) point A2 (0,-1,0) point A3 (1,0,0)
+r1 : point O (0,0,0)
+r2 : point O (0,0,0)
+e1 : point O (0,0,0)
+e2 : point O (0,0,0)
+f3 : point O (0,0,0)
+e3 : point O (0,0,0)
+plat : point B1 (0,0.5,0) point B2 (0,-0.5,0) point B3 (0.5,0,0)
+[JOINTS]
+revolute : base A1 + (1,0,0) r1 O + (1,0,0)
+revolute : base A2 + (1,0,0) r2 O + (1,0,0)
+prismatic d1 : r1 O + (0,0,1) e1 O + (0,0,1) range [0.5,2] actuated
+prismatic d2 : r2 O + (0,0,1) e2 O + (0,0,1) range [0.5,2] actuated
+universal : e1 O + (1,0,0) plat B1 + (0,1,0)
+universal : e2 O + (1,0,0) plat B2 + (0,1,0)
+universal : base A3 + (1,0,0) f3 O + (0,1,0)
+prismatic d3 : f3 O + (0,0,1) e3 O + (0,0,1) range [0.5,2] actuated
+revolute : e3 O + (0,1,0) plat B3 + (0,1,0)
+[OUTPUTS]
+u : position of plat (0,0,0) only z
+n : direction of plat (0,0,1)
+)"),
+      "r.cuik: the robot is over-constrained, and corank does not find which of its conditions follow from the others: "
+      "its positions seem to have mobility 2, its velocities 1; expected joints that say nothing twice, such as a "
+      "spherical one in place of a universal one, or the robot's equations");
+}
+
 }  // namespace
 }  // namespace corank::kinematics

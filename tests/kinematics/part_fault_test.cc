@@ -57,6 +57,8 @@ std::vector<FaultCase> faults() {
        "[CONSTANTS], [LINKS]"},
       // constants
       {"ConstantWithoutAssign", constants("l = 1"), "2:3", "found '='", "':=' after the constant's name"},
+      {"ConstantWithAUnit", constants("l := 100 cm\nb := 1 m"), "3:1", "found 'b'",
+       "':=' after the constant's name; a number has no unit behind it"},
       {"ConstantTwice", constants("l := 1\nl := 2"), "3:1", "the constant 'l' is already defined in line 2", "another name"},
       {"UnknownConstant", constants("length1 := 1\nb := lenght1"), "3:6", "the constant 'lenght1' is not defined before",
        "did you mean 'length1'?"},

@@ -105,11 +105,8 @@ TEST(MotionWords, AreNoneForRelationsThatAreNotLinear) {
   EXPECT_THAT(result.motions, ElementsAre(""));
 }
 
-result::Result rhombus(symbolic::SingularitySet set) {
-  const symbolic::Mechanism model = symbolic::parse_model(
-      "[SYSTEM VARS]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\nt3 ~ [-pi, pi]\n[SYSTEM EQS]\ncos(t1) + cos(t2) = 1 + cos(t3);\n"
-      "sin(t1) + sin(t2) = sin(t3);\n[INPUTS] t1\n[OUTPUTS] t3\n",
-      "rhombus.cuik");
+result::Result solved(const std::string& text, symbolic::SingularitySet set) {
+  const symbolic::Mechanism model = symbolic::parse_model(text, "model.cuik");
   const System system = symbolic::algebrize(symbolic::singularity_system(model, set));
   result::Result result;
   result.set = to_string(set);
@@ -117,6 +114,12 @@ result::Result rhombus(symbolic::SingularitySet set) {
   result::describe_system(system, result);
   result::describe_in_words(model, system, result);
   return result;
+}
+result::Result rhombus(symbolic::SingularitySet set) {
+  return solved(
+      "[SYSTEM VARS]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\nt3 ~ [-pi, pi]\n[SYSTEM EQS]\ncos(t1) + cos(t2) = 1 + cos(t3);\n"
+      "sin(t1) + sin(t2) = sin(t3);\n[INPUTS] t1\n[OUTPUTS] t3\n",
+      set);
 }
 
 TEST(MotionWords, NameWhatIsLockedInTableAndPageAndBesideTheRelations) {
@@ -132,6 +135,25 @@ TEST(MotionWords, NameWhatIsLockedInTableAndPageAndBesideTheRelations) {
   EXPECT_THAT(said.proven, testing::Contains(HasSubstr(text)));
   EXPECT_THAT(result::to_table(rhombus(symbolic::SingularitySet::inverse)),
               HasSubstr("with the output locked at t3 = 180°, t1 turns freely: t2 = t1 + 180°"));
+}
+
+// A kite: with the crank on the frame, coupler and rocker turn together. The second rate follows from the coordinates.
+TEST(MotionWords, SayFreelyWhereAnEquationOnlyGivesARate) {
+  EXPECT_THAT(result::to_table(solved("[SYSTEM VARS]\nt1 ~ [-pi, pi]\nt2 ~ [-pi, pi]\nt3 ~ [-pi, pi]\n[SYSTEM EQS]\n"
+                                      "4*cos(t1) + 7*cos(t3) = 4 + 7*cos(t2);\n4*sin(t1) + 7*sin(t3) = 7*sin(t2);\n"
+                                      "[INPUTS] t1\n[OUTPUTS] t2\n",
+                                      symbolic::SingularitySet::forward)),
+              HasSubstr("with the input locked at t1 = 0, t2 turns freely: t3 = t2"));
+}
+
+// Two kernels at one configuration, whose vectors are many: a length that follows from an angle that stays does not move.
+TEST(MotionWords, SayThatNothingMovesWhereOnlyKernelVectorsDo) {
+  const std::string model =
+      "[SYSTEM VARS]\na ~ [-pi, pi]\nb ~ [-pi, pi]\ny : [-3, 3]\n[DUMMY VARS]\nw : [0, 2]\n[SYSTEM EQS]\nw = 1;\n";
+  const std::vector<Part> stays = {{"1", "c_a"}, {"-3/5", nullptr}}, follows = {{"1", "y"}, {"-2", "s_a"}},
+                          also_stays = {{"1", "c_b"}};
+  EXPECT_EQ(words(model, {stays, also_stays, follows}), "no coordinate moves, with cos a = 3/5, cos b = 0 and y = 2*sin a");
+  EXPECT_EQ(words(model, {stays, follows}), "with cos a = 3/5 and y = 2*sin a, b turns freely");
 }
 
 }  // namespace

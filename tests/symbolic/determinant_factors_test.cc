@@ -8,6 +8,7 @@
 #include <random>
 
 #include "corank/symbolic/model/model_error.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/velocity/exact_matrix.h"
 #include "corank/tests/seeds.h"
 #include "corank/tests/symbolic/evaluate.h"
@@ -137,6 +138,22 @@ TEST(BlockTriangularForm, OrdersAPermutedStaircase) {
 }
 
 TEST(BlockTriangularForm, IsNothingWhereTwoRowsFillOneColumn) { EXPECT_FALSE(block_triangular_form({{0}, {0}})); }
+
+// An arm of two joints of which one length is asked for.
+TEST(Loci, SayWhichMatrixOfARedundantRobotHasNoDeterminant) {
+  const Mechanism arm = parse_model(
+      "[SYSTEM VARS]\na ~\nb ~\nx : [-2, 2]\n[SYSTEM EQS]\nx = cos(a) + cos(b);\n"
+      "[INPUTS] a, b\n[OUTPUTS] x\n",
+      "arm.cuik");
+  try {
+    singularity_loci(arm);
+    ADD_FAILURE() << "no error";
+  } catch (const ModelError& error) {
+    EXPECT_STREQ(error.what(),
+                 "arm: L_z has 1 row and 2 columns, and so no determinant, whose sign tells aspects apart; expected as "
+                 "many outputs as the mobility");
+  }
+}
 
 }  // namespace
 }  // namespace corank::symbolic

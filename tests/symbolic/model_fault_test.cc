@@ -83,6 +83,8 @@ std::vector<FaultCase> faults() {
       {"ConstantGoesOnInTheNextLine", constants("a := 1 +\nb := 2"), "2:9", "found the end of the line", operand},
       {"NameBeginsWithADigit", constants("2a := 1"), "2:1", "found '2'", "a definition, name := expression, or a section"},
       {"NameIsNotAscii", constants("θ := 1"), "2:1", "found 'θ'", "a definition"},
+      {"ConstantWithAUnit", constants("a := 100 cm"), "2:12", "found the end of the line",
+       "':=' after the constant's name; a number has no unit behind it"},
       {"NameWithADot", constants("a.b := 1"), "2:2", "found '.'", "':=' after the constant's name"},
       {"ConstantTwice", constants("a := 1\na := 2"), "3:1", "the name 'a' is already declared in line 2",
        "another name for the constant"},
