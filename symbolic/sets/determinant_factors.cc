@@ -38,8 +38,10 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
     for (const RationalPolynomial& factor : value.factors(ended).value_or(std::vector{value})) {
       const RationalPolynomial on_cspace = m.is_explicit() ? m.in_free_coordinates(factor, ended) : factor;
       if (on_cspace.is_zero()) throw vanishing();
-      for (RationalPolynomial& f : on_cspace.factors(ended).value_or(std::vector{on_cspace}))
-        if (std::ranges::find(factors, f) == factors.end()) factors.push_back(std::move(f));
+      for (RationalPolynomial& f : on_cspace.factors(ended).value_or(std::vector{on_cspace})) {
+        const bool is_one = m.modulo_circles(f).is_number();  // cos² + sin²
+        if (!is_one && std::ranges::find(factors, f) == factors.end()) factors.push_back(std::move(f));
+      }
     }
   }
   std::vector<Expression> result;

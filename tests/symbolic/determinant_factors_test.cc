@@ -41,6 +41,14 @@ class DeterminantFactors : public testing::Test {
   } random_;
 };
 
+TEST_F(DeterminantFactors, HoldNoneThatIsOneOnEveryCircle) {
+  const Expression t = mechanism_.angle("t"), x = coordinates_[0];
+  const ExpressionMatrix turned{.columns = {"a", "b"}, .rows = {{x * cos(t), -sin(t)}, {x * sin(t), cos(t)}}};
+  const std::vector<Expression> factors = determinant_factors(mechanism_, turned);
+  ASSERT_EQ(factors.size(), 1u);
+  EXPECT_EQ(factors[0].text(), "x0");
+}
+
 TEST_F(DeterminantFactors, VanishWhereTheDeterminantDoesAndNowhereElse) {
   const int rounds = test::long_run() ? 400 : 130;
   int with_factors = 0;
