@@ -96,20 +96,22 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
   study::Systems systems = study::systems_of(question, control, false);
   if (systems.of_parts.size() < systems.parts.size()) return std::nullopt;
   study::Options options{search.options(systems.of_parts.front(), *question.set), report::kPageDigits};
-  options.search.surfaces_whole = true;
+  options.search.surfaces_whole = true;  // where no sigma is given
   ProgressLine line(fmt::format("{} ({} of {})", sets[index], index + 1, sets.size()));
   line.follow(control);
   result::Result result = study::answer(systems, options, control);
   line.clear();
   if (found) found(result);
   if (study::is_whole(result)) {
-    options.search.surfaces_whole = options.search.proof = false;
-    result = study::cut_for_page(result, options.search, search.limits.max_found, limits_of_set, control.search_progress);
+    solve::Options page = options.search;
+    page.surfaces_whole = page.proof = false;
+    result = study::cut_for_page(result, page, search.limits.max_found, limits_of_set, control.search_progress);
   }
   System system =
       systems.parts.front().part ? result::system_of(question.model, result) : std::move(systems.of_parts.front());
+  const solve::Control of_view(limits_of_set);
   return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation(),
-                          [&control] { return control.overdue() || Interrupt::stop(); });
+                          [&] { return of_view.overdue() || Interrupt::stop(); });
 }
 
 }  // namespace corank::app

@@ -83,8 +83,9 @@ result::Result cut_for_page(const result::Result& whole, solve::Options options,
     most = std::max<std::uint64_t>(most, whole.cover.boxes.size() / 4 * 5);
     options.max_found = most + 1;
   }
-  for (int tries = 0; tries < kTries; ++tries, options.coarser *= kCoarser) {
-    solve::Control control(limits);
+  const solve::Control all(limits);
+  for (int tries = 0; tries < kTries && (tries == 0 || !all.ended()); ++tries, options.coarser *= kCoarser) {
+    solve::Control control(all.rest(0, 0));
     control.search_progress = progress;
     result::Result result = cut(whole, options, control);
     const std::optional<solve::Ending> ending = control.ending();

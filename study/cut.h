@@ -20,9 +20,8 @@ bool is_whole(const result::Result& result);
 /// corank has made the result.
 result::Result cut(result::Result result, const solve::Options& options, solve::Control& control);
 
-/// cut() for a page that shows about so many boxes, of a set with more sheets than that a quarter more than it has; 0: any
-/// number. While that, or a limit, ends the cutting, σ is made coarser, each time with the limits anew; in the end the sheets
-/// stay whole.
+/// cut() for a page of at most this many boxes, where the sheets alone are nearly as many of 5/4 of their number; 0: any
+/// number. Where they do not fit σ is doubled, up to five times, within one limit of time; then the sheets stay whole.
 result::Result cut_for_page(const result::Result& whole, solve::Options options, std::uint64_t most,
                             const solve::Control::Limits& limits,
                             const std::function<void(const solve::SearchProgress&)>& progress = {});

@@ -60,6 +60,7 @@ std::string relations_html(const std::string& text) {
   boost::split(relations, text, boost::is_any_of(","));
   for (const std::string& relation : relations) {
     const std::size_t equals = relation.find(" = ");
+    if (equals == std::string::npos) return math(mathml(symbolic::Expression(text)));
     formulas.push_back(
         math(mathml(symbolic::Expression(relation.substr(0, equals)) == symbolic::Expression(relation.substr(equals + 3)))));
   }

@@ -101,7 +101,8 @@ struct Result {
   std::string part;
   std::string condition;  ///< of a part that is a factor's: "d1 - x = 0"; several as "d1 = 0, d2 = 0"
   /// Coordinates that take every value in their ranges, whatever those of the others are: the set is the product of these
-  /// ranges with a set in the others, but for coordinates without a declared range, which follow from all.
+  /// ranges with a set in the others, but for coordinates without a declared range, and dependent angles, which follow from
+  /// all.
   std::vector<std::string> free_coordinates;
   std::vector<Result> parts;
   /// Of an empty set of a robot: what was found out about its C-space (result/values/sentences.h), one result or none. Its

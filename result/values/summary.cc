@@ -235,8 +235,18 @@ std::string motions_text(const Result& result) {
   return text;
 }
 
-// How many groups of boxes are undecided for this reason, those of a group nearer to each other than they are wide.
-std::size_t places_of(Reason reason, const Cover& cover) {
+// How many groups of boxes are undecided for this reason, those of a group nearer to each other than they are wide; of parts
+// their sum. Their number where they are many.
+std::size_t places_of(Reason reason, const Result& result) {
+  constexpr std::size_t kMost = 20'000;
+  const Cover& cover = result.cover;
+  const auto boxes = undecided_reasons(cover);
+  const auto own = boxes.find(reason);
+  if (own == boxes.end()) return 0;
+  if (own->second > kMost) return own->second;
+  std::size_t of_parts = 0;
+  for (const Result& part : result.parts) of_parts += places_of(reason, part);
+  if (!result.parts.empty()) return of_parts;
   std::vector<Box> around;
   for (const CoverBox& box : cover.boxes)
     if (box.verdict == Verdict::undecided && box.reason == reason)
@@ -248,7 +258,7 @@ std::size_t places_of(Reason reason, const Cover& cover) {
 std::string reasons_text(const Result& result) {
   std::string text;
   for (const auto& [reason, n] : undecided_reasons(result.cover)) {
-    const std::size_t places = reason == Reason::degenerate_point ? places_of(reason, result.cover) : n;
+    const std::size_t places = reason == Reason::degenerate_point ? places_of(reason, result) : n;
     text += fmt::format("  undecided, {}{}: {}\n", n, places < n ? fmt::format(" in {}", counted(places, "place")) : "",
                         in_words(reason, result));
   }

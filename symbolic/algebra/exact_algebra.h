@@ -11,7 +11,7 @@
 
 namespace corank::symbolic {
 
-/// To be used while GiNaC's lock is held.
+/// To be used while GiNaC's lock is held, of a mechanism without tolerances.
 class ExactAlgebra {
  public:
   explicit ExactAlgebra(const Mechanism& mechanism, const std::vector<std::string>& unknowns = {});

@@ -29,8 +29,8 @@ struct Component {
   /// In place of Φ(q) = 0, where some coordinates are left out (set_parts.h).
   std::shared_ptr<const TrigonometricSystem> factor{};
   std::vector<std::string> joints{};       ///< of such a part: the coordinates that give all others (free_coordinates.h)
-  std::optional<DoubleStratum> stratum{};  ///< where the condition vanishes doubly: the part is that, or the rest
-  bool is_rest = false;                    ///< of such a part
+  std::optional<DoubleStratum> stratum{};  ///< where the condition vanishes doubly; the part is this, or
+  bool is_rest = false;                    ///< what else the condition says
 
   /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.
   std::string relation() const {

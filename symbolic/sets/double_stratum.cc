@@ -109,7 +109,7 @@ Sorted sorted(const ExactAlgebra& algebra, const DoubleStratum& stratum,
   return result;
 }
 
-// A whole number that ‖x − a‖ does not exceed; nothing: a large one.
+// A whole number that ‖x − a‖ does not exceed; nothing where it is large, or x = a is outside the ranges.
 std::optional<int> farthest(const DoubleStratum& stratum, const std::vector<Coordinate>& coordinates,
                             const Mechanism& mechanism) {
   const UpwardRounding rounding;
@@ -123,7 +123,7 @@ std::optional<int> farthest(const DoubleStratum& stratum, const std::vector<Coor
   Interval sum(0);
   for (const Relation& r : stratum.relations) {
     const std::optional<Interval> x = range_of(r.lhs - r.rhs, known);
-    if (!x) return std::nullopt;
+    if (!x || !x->contains(0)) return std::nullopt;
     sum = sum + Interval(0, x->mag()) * Interval(0, x->mag());
   }
   constexpr double kMost = 1e9;
@@ -190,15 +190,20 @@ std::string DoubleStratum::text() const {
 }
 
 std::optional<DoubleStratum> double_stratum(const Mechanism& mechanism, const Expression& f, const Ended& ended) {
-  const std::vector<TrigonometricSystem::Equation> phi = plain_system(mechanism).equations;
+  const TrigonometricSystem space = plain_system(mechanism);
+  const std::vector<TrigonometricSystem::Equation>& phi = space.equations;
   const GinacLock lock;
   const ExactAlgebra algebra(mechanism);
   std::vector<DoubleStratum> found = Search(mechanism, algebra, ended).run(f);
   std::ranges::sort(found, {}, &DoubleStratum::text);
-  for (const DoubleStratum& stratum : found)
-    if (stratum.relations.size() + sorted(algebra, stratum, phi).representatives.size() == phi.size() + 1 &&
-        farthest(stratum, mechanism.coordinates(), mechanism))
-      return stratum;
+  for (DoubleStratum& stratum : found) {
+    const bool is_as_large =
+        stratum.relations.size() + sorted(algebra, stratum, phi).representatives.size() == phi.size() + 1;
+    const std::optional<int> most = farthest(stratum, space.coordinates, mechanism);
+    if (!is_as_large || !most) continue;
+    stratum.farthest = *most;
+    return stratum;
+  }
   return std::nullopt;
 }
 
@@ -209,6 +214,7 @@ void put_on(const DoubleStratum& stratum, const Mechanism& mechanism, Trigonomet
     equations.push_back(system.equations[i]);
   for (const Relation& r : stratum.relations) equations.push_back({r, stratum.text(), model_place(mechanism), true});
   system.equations = std::move(equations);
+  system.claimed.clear();
 }
 
 void put_beside(const DoubleStratum& stratum, const Mechanism& mechanism, TrigonometricSystem& system) {
@@ -242,8 +248,8 @@ void put_beside(const DoubleStratum& stratum, const Mechanism& mechanism, Trigon
   system.equations = std::move(equations);
   system.inequalities.push_back({generic_form(eta) >= Expression(0), "half-space of " + names.front(), where, true});
   for (const std::string& name : names) system.further_unknowns.push_back({name});
-  const int most = *farthest(stratum, system.coordinates, mechanism);
-  system.further_unknowns.push_back({rho, -most, most});
+  system.further_unknowns.push_back({rho, -stratum.farthest, stratum.farthest});
+  system.claimed.clear();
 }
 
 }  // namespace corank::symbolic

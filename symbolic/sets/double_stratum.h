@@ -9,7 +9,8 @@
 //   { F = 0 } = { R, g = 0 } ∪ { x : x_v = a_v + ρ η_v, ‖η‖ = 1, b·η ≥ 0, g = 0, ρ⁻ᵏ h(a + ρ η) = 0 for some ρ, η }
 // with any fixed vector b. Proof: F = 0 where R and g = 0 hold, and where g = 0 and h = ρᵏ · 0. Of a solution with x ≠ a on
 // V, ρ = ± ‖x − a‖ and η = (x − a)/ρ, with the sign for which b·η ≥ 0. ∎
-// This is the blow-up of R: the second set is not doubled on the first any more, and crosses it where ρ = 0.
+// This is the blow-up of R: the second set is not doubled on the first any more, and crosses it where ρ = 0. There what is
+// smooth in (q, ρ, η) may be pinched in q.
 #pragma once
 
 #include <optional>
@@ -24,13 +25,15 @@ namespace corank::symbolic {
 /// R: coordinates, lengths with a range, and what each is.
 struct DoubleStratum {
   std::vector<Relation> relations;
+  int farthest = 0;  ///< ‖x − a‖ is nowhere larger
 
   std::string text() const;  ///< "d1 = 0, d2 = 0, d3 = 0"
   bool operator==(const DoubleStratum& other) const { return text() == other.text(); }
 };
 
-/// Of { Φ(q) = 0, f(q) = 0 }: where f and its gradient vanish by relations of lengths, if these
-/// and the representatives are as many as the equations of the set. The factors of f's derivatives give the relations.
+/// A stratum on which f and its gradient vanish, as large as the set { Φ(q) = 0, f(q) = 0 }: the relations and the
+/// representatives are as many as the equations of the set. Linear factors of f's derivatives give the relations. Nothing
+/// where there is none within the ranges, none is found so, f is long, or `ended` says so.
 std::optional<DoubleStratum> double_stratum(const Mechanism& mechanism, const Expression& f, const Ended& ended = {});
 
 /// Φ(q) = 0, the system's equations so far, becomes { R, g = 0 }.

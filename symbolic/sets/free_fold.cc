@@ -40,13 +40,19 @@ std::optional<TrigonometricSystem> without_free_fold(const Mechanism& mechanism,
     return mentions(e.relation.lhs) || mentions(e.relation.rhs);
   };
   if (std::ranges::any_of(system.inequalities, is_about_them)) return std::nullopt;
-  for (TrigonometricSystem::Equation& e : system.equations) {
-    if (!is_about_them(e)) continue;
+  std::vector<TrigonometricSystem::Equation> left;
+  for (const TrigonometricSystem::Equation& e : system.equations) {
+    if (!is_about_them(e)) {
+      left.push_back(e);
+      continue;
+    }
     const GiNaC::ex rest = algebra.value(e.relation.lhs - e.relation.rhs).subs(values).expand();
-    e.relation = algebra.expression(rest) == Expression(0);
-    if (is_about_them(e)) return std::nullopt;
+    if (rest.is_zero()) continue;
+    left.push_back(e);
+    left.back().relation = algebra.expression(rest) == Expression(0);
+    if (is_about_them(left.back())) return std::nullopt;
   }
-  std::erase_if(system.equations, [](const auto& e) { return same_tree(e.relation.lhs, 0); });
+  system.equations = std::move(left);
   std::erase_if(system.coordinates, [&](const Coordinate& c) { return c.name == angle.angle || c.name == angle.other; });
   system.claimed.clear();
   return system;

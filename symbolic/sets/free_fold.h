@@ -2,7 +2,7 @@
 // equally long, holds its end at its base, whatever the angle of its crank.
 //
 // Theorem: with the dependent angle put in, a = ± b + k π/2, let no equation and no inequality of Φ be about b, and let a
-// and b have no ranges. Then the part is the product of b's circle and of what Φ leaves in the other coordinates. ∎
+// and b turn fully. Then the part is the product of b's circle and of what Φ leaves in the other coordinates. ∎
 #pragma once
 
 #include <optional>

@@ -44,8 +44,8 @@ bool leave_out_coordinates(const FreeCoordinates& free, std::vector<Component>& 
   return !parts.empty();
 }
 
-// Of a set of dimension 2 or more: parts in which links turn freely without them, and each part of which some is double as
-// two, that and the rest.
+// Of a set of dimension 2 or more. A part in which links turn freely is without their angles; one whose condition vanishes
+// doubly on a stratum becomes two parts, the stratum and the rest.
 std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Component> parts, const Ended& ended) {
   const auto moving = std::ranges::count_if(mechanism.coordinates(), std::not_fn(is_fixed));
   if (moving < std::ssize(residuals(mechanism)) + 3) return parts;
@@ -58,8 +58,9 @@ std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Compon
       }
     if (part.condition) part.stratum = double_stratum(mechanism, *part.condition, ended);
     if (part.stratum) {
-      result.push_back(part);
-      result.back().name = part.stratum->text();
+      Component on = part;
+      on.name = part.stratum->text();
+      if (std::ranges::find(result, on) == result.end()) result.push_back(std::move(on));
       part.is_rest = true;
       part.name += ", elsewhere";
     }

@@ -1,6 +1,9 @@
 #include "corank/symbolic/writing/printer.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -228,10 +231,19 @@ void print_system(std::ostream& out, const TrigonometricSystem& system) {
 
 // Of a part that is not the first one. Parts by limits are hundreds, and most have the same equations.
 void print_difference(std::ostream& out, const TrigonometricSystem& first, const TrigonometricSystem& system) {
-  for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
-    const std::string line = range_line(system.coordinates[i]);
-    if (i >= first.coordinates.size() || line != range_line(first.coordinates[i])) out << line;
-  }
+  const auto lines = [](const std::vector<Coordinate>& list) {
+    std::map<std::string, std::string> result;
+    for (const Coordinate& c : list) result[c.name] = range_line(c);
+    return result;
+  };
+  const auto ranges = lines(system.coordinates), of_the_first = lines(first.coordinates);
+  for (const Coordinate& c : system.coordinates)
+    if (const auto same = of_the_first.find(c.name); same == of_the_first.end() || same->second != ranges.at(c.name))
+      out << ranges.at(c.name);
+  std::vector<std::string> left_out;
+  for (const Coordinate& c : first.coordinates)
+    if (!ranges.contains(c.name)) left_out.push_back(c.name);
+  if (!left_out.empty()) out << broken(fmt::format("  without {}", fmt::join(left_out, ", ")), 0, 4) << "\n";
   if (const std::string unknowns = unknown_lines(system); unknowns != unknown_lines(first)) out << unknowns;
   const std::vector<TrigonometricSystem::Equation> of_first = relations(first);
   const Comparison compared = compare(of_first, system);

@@ -17,8 +17,10 @@
 #include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/determinant_factors.h"
+#include "corank/symbolic/writing/printer.h"
 #include "corank/tests/study/samples.h"
 
 namespace corank::study {
@@ -275,6 +277,30 @@ TEST(SetPartsOf, ALegFoldedUponItselfTurnsFreelyWhereItsLinksAreEquallyLong) {
   const std::string joint = "crank2 A2 + (0, 0, 1)     actuated";
   replace(joint, joint + " range [-1, 1]");
   EXPECT_THAT(sizes(), ElementsAre(9, 9, 9, 7, 9, 9)) << "and leg 2 does not turn fully";
+}
+
+// What is left of the equations, however they are written.
+TEST(SetPartsOf, ALegThatTurnsFreelyLeavesTheOthersEquations) {
+  const symbolic::Mechanism robot = model_named("planar/3rrr");
+  std::string text = symbolic::to_model(robot);
+  for (std::size_t at; (at = text.find("\n    ")) != std::string::npos;) text.replace(at, 5, " ");  // lines that go on
+  for (std::size_t at = text.find("[SYSTEM EQS]"); (at = text.find(" = 0;", at)) != std::string::npos;) {
+    const std::size_t line = text.rfind('\n', at) + 1;
+    text = text.substr(0, line) + "0 = " + text.substr(line, at - line) + text.substr(at + 4);
+  }
+  ASSERT_NE(text.find("0 = "), std::string::npos);
+  const symbolic::Mechanism other = symbolic::parse_model(text, "turned.cuik");
+  const auto sizes = [](const symbolic::Mechanism& m) {
+    std::vector<std::pair<std::size_t, std::size_t>> list;
+    for (const Question& part : parts_of({.model = m, .set = SingularitySet::inverse})) {
+      const symbolic::TrigonometricSystem system = equations(part);
+      list.emplace_back(system.coordinates.size(), system.equations.size());
+    }
+    return list;
+  };
+  const std::pair<std::size_t, std::size_t> stretched(9, 7), folded(7, 6);
+  EXPECT_THAT(sizes(robot), ElementsAre(stretched, folded, stretched, folded, stretched, folded));
+  EXPECT_EQ(sizes(other), sizes(robot));
 }
 
 // Where leg 2 of a 3-RRR is folded its motor is free, and the two other legs are stretched at the same orientation: there
