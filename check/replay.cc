@@ -184,11 +184,10 @@ class Replay {
       : problem_(problem), cover_(cover), proof_(*cover.proof), progress_(progress), searches_([this] {
           return Search(problem_);
         }) {
-    using ByRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    for (const Proof::Combination& c : proof_.combinations) {
-      const Eigen::Index r = std::ssize(c.dependent);
-      combinations_.push_back({c.equations, c.dependent, Eigen::Map<const ByRows>(c.y.data(), r, r).cast<double>()});
-    }
+    using Y = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+    for (const auto& [equations, dependent, y] : proof_.combinations)
+      combinations_.push_back(
+          {equations, dependent, Y(y.data(), std::ssize(dependent), std::ssize(dependent)).cast<double>()});
   }
 
   Replayed run() {
@@ -199,12 +198,8 @@ class Replay {
       const Script script(proof_, problem_, cover_.boxes.size());
       check_domain();
       tbb::task_group tasks;
-      for (std::size_t r = 0; r < proof_.roots.size(); ++r)
-        tasks.run([&, r] {
-          State state{{}, proof_.roots[r], false};
-          for (const Interval& side : proof_.roots[r]) state.x.emplace_back(side);
-          play(script, script.root(r), std::move(state));
-        });
+      for (std::size_t r = 0; const std::vector<Interval>& root : proof_.roots)
+        tasks.run([&, r = r++] { play(script, script.root(r), {Sides(root.begin(), root.end()), root, false}); });
       tasks.wait();
     } catch (const Malformed& fault) {
       fail(fault.step, fault.reason);
