@@ -33,7 +33,7 @@ struct DoubleStratum {
 
 /// A stratum on which f and its gradient vanish, as large as the set { Φ(q) = 0, f(q) = 0 }: the relations and the
 /// representatives are as many as the equations of the set. Linear factors of f's derivatives give the relations. Nothing
-/// where there is none within the ranges, none is found so, f is long, or `ended` says so.
+/// where these show no such stratum within the ranges, where f is long, or once `ended` says so.
 std::optional<DoubleStratum> double_stratum(const Mechanism& mechanism, const Expression& f, const Ended& ended = {});
 
 /// Φ(q) = 0, the system's equations so far, becomes { R, g = 0 }.

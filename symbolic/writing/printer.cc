@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 #include <sstream>
 #include <vector>
 
@@ -231,18 +230,15 @@ void print_system(std::ostream& out, const TrigonometricSystem& system) {
 
 // Of a part that is not the first one. Parts by limits are hundreds, and most have the same equations.
 void print_difference(std::ostream& out, const TrigonometricSystem& first, const TrigonometricSystem& system) {
-  const auto lines = [](const std::vector<Coordinate>& list) {
-    std::map<std::string, std::string> result;
-    for (const Coordinate& c : list) result[c.name] = range_line(c);
-    return result;
+  const auto named_as = [](const Coordinate& c, const TrigonometricSystem& in) {
+    const auto place = std::ranges::find(in.coordinates, c.name, &Coordinate::name);
+    return place == in.coordinates.end() ? nullptr : &*place;
   };
-  const auto ranges = lines(system.coordinates), of_the_first = lines(first.coordinates);
   for (const Coordinate& c : system.coordinates)
-    if (const auto same = of_the_first.find(c.name); same == of_the_first.end() || same->second != ranges.at(c.name))
-      out << ranges.at(c.name);
+    if (const Coordinate* same = named_as(c, first); !same || range_line(*same) != range_line(c)) out << range_line(c);
   std::vector<std::string> left_out;
   for (const Coordinate& c : first.coordinates)
-    if (!ranges.contains(c.name)) left_out.push_back(c.name);
+    if (!named_as(c, system)) left_out.push_back(c.name);
   if (!left_out.empty()) out << broken(fmt::format("  without {}", fmt::join(left_out, ", ")), 0, 4) << "\n";
   if (const std::string unknowns = unknown_lines(system); unknowns != unknown_lines(first)) out << unknowns;
   const std::vector<TrigonometricSystem::Equation> of_first = relations(first);
