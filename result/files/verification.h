@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "corank/check/checker.h"
+#include "corank/check/part_samples.h"
 #include "corank/result/values/result.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
@@ -19,6 +20,8 @@ struct Verification {
   /// What assembled() says of an empty set and is confirmed: the sample, or that C-space is empty, which shows that the set
   /// is, too. Nothing where nothing is said, or it is not confirmed.
   std::optional<bool> assembled{};
+  /// Of a set whose matrix decomposes into parts; nothing where the check did not come to it.
+  std::optional<check::PartSamples> samples{};
 
   /// No contradiction, and every claim is confirmed.
   bool verified() const { return contradictions.empty() && report.verified(); }
@@ -58,7 +61,8 @@ ReadResult read_to_show(const std::filesystem::path& path);
 std::string to_table(const Verification& verification, const Result& result);
 
 /// {"verified", "complete", "interrupted", "stage" (where it ended early), "not_in_sample" (boxes, of a sample),
-/// "verdicts": {"regular": {"verified", "failed", "not_checkable"} …}, "points", "exact_points",
+/// "verdicts": {"regular": {"verified", "failed", "not_checkable"} …}, "points", "exact_points", "samples" (of a set in
+/// parts): {"of_set", "of_parts"},
 /// "completeness": {"proof", "verified", "open", "steps", "leaves", "searched"}, "contradictions",
 /// "failures": [{"what", "number", "reason"}]}; numbers count from 1.
 std::string to_json(const Verification& verification);

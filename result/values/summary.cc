@@ -8,7 +8,6 @@
 #include <span>
 
 #include "corank/certify/algebraic_number.h"
-#include "corank/core/box_tree.h"
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/tallies.h"
 #include "corank/result/values/words.h"
@@ -235,33 +234,10 @@ std::string motions_text(const Result& result) {
   return text;
 }
 
-// How many groups of boxes are undecided for this reason, those of a group nearer to each other than they are wide; of parts
-// their sum. Their number where they are many.
-std::size_t places_of(Reason reason, const Result& result) {
-  constexpr std::size_t kMost = 20'000;
-  const Cover& cover = result.cover;
-  const auto boxes = undecided_reasons(cover);
-  const auto own = boxes.find(reason);
-  if (own == boxes.end()) return 0;
-  if (own->second > kMost) return own->second;
-  std::size_t of_parts = 0;
-  for (const Result& part : result.parts) of_parts += places_of(reason, part);
-  if (!result.parts.empty()) return of_parts;
-  std::vector<Box> around;
-  for (const CoverBox& box : cover.boxes)
-    if (box.verdict == Verdict::undecided && box.reason == reason)
-      for (Interval& side : around.emplace_back(box.box))
-        side = Interval(side.lo() - side.width(), side.hi() + side.width());
-  return 1 + std::ranges::max(box_tree(around, std::identity()).groups(0, {}));
-}
-
 std::string reasons_text(const Result& result) {
   std::string text;
-  for (const auto& [reason, n] : undecided_reasons(result.cover)) {
-    const std::size_t places = reason == Reason::degenerate_point ? places_of(reason, result) : n;
-    text += fmt::format("  undecided, {}{}: {}\n", n, places < n ? fmt::format(" in {}", counted(places, "place")) : "",
-                        in_words(reason, result));
-  }
+  for (const auto& [reason, n] : undecided_reasons(result.cover))
+    text += fmt::format("  undecided, {}: {}\n", n, in_words(reason, result));
   return text;
 }
 

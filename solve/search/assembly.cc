@@ -341,10 +341,13 @@ Cover assemble(const Prepared& prepared, const Problem& problem, const std::vect
   }
   if (reduction.tolerant || some_partial) cover.tolerance = reduction.system.coefficient_tolerance * kPartialTolerance;
   const UpwardRounding rounding;  // and subnormal numbers stay
+  const Ended overdue = [&control] { return control.overdue(); };
   sort(found);
+  const std::size_t all = found.size();
+  merge_degenerate(problem, found, cover.dimension == 0 ? kPointGap : kOtherShare, overdue);
+  if (found.size() < all) sort(found);
   if (cover.dimension == 0) {
     const InStage stage(control, Stage::points);
-    const Ended overdue = [&control] { return control.overdue(); };
     merge_isolated(found, overdue);
     cover.regions = number_regions(reduction, found);
     cover.points = collect_points(found, problem.limits(kPointGap), overdue, problem.compiled.parameters().size());

@@ -7,6 +7,7 @@
 #include "corank/certify/distinct.h"
 #include "corank/core/box.h"
 #include "corank/core/box_tree.h"
+#include "corank/solve/step/heuristics.h"
 
 namespace corank::solve {
 namespace {
@@ -23,6 +24,9 @@ std::vector<std::size_t> indices(const std::vector<Found*>& found, Choose choose
 
 const Box& box_of(const Found* found) { return found->box.box; }
 
+// The solutions of `from`, if it has any, are in `to`.
+void take_leaves(Found& to, const Found& from) { to.leaves.insert(to.leaves.end(), from.leaves.begin(), from.leaves.end()); }
+
 constexpr std::size_t kBetweenChecks = 64;
 
 }  // namespace
@@ -30,9 +34,9 @@ constexpr std::size_t kBetweenChecks = 64;
 void merge_isolated(std::vector<Found*>& found, const Ended& ended) {
   std::vector<bool> remove(found.size(), false);
   std::vector<Reason> unclear(found.size(), Reason::none);
-  const auto absorb = [&](std::size_t i, std::size_t j) {  // box j's solutions, if it has any, are in box i
+  const auto absorb = [&](std::size_t i, std::size_t j) {
     remove[j] = true;
-    found[i]->leaves.insert(found[i]->leaves.end(), found[j]->leaves.begin(), found[j]->leaves.end());
+    take_leaves(*found[i], *found[j]);
   };
   const auto compare = [&](std::size_t i, std::size_t j) {
     if (i == j || remove[i] || remove[j]) return;
@@ -88,6 +92,26 @@ std::vector<std::vector<std::size_t>> clusters(const std::vector<const Box*>& bo
     result[group[i]].push_back(i);
   }
   return result;
+}
+
+void merge_degenerate(const Problem& problem, std::vector<Found*>& found, double gap, const Ended& ended) {
+  const auto degenerate = indices(found, [](const Found& f) { return f.box.reason == Reason::degenerate_point; });
+  std::vector<const Box*> sides;
+  for (const std::size_t i : degenerate) sides.push_back(&found[i]->box.box);
+  for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(gap), ended)) {
+    Box hull = *sides[cluster[0]];
+    for (const std::size_t k : cluster) include(hull, *sides[k]);
+    if (problem.relative_width(hull) > kIsolatedHull * gap) continue;
+    Found& first = *found[degenerate[cluster[0]]];
+    first.box.box = std::move(hull);
+    for (const std::size_t k : cluster) {
+      Found*& other = found[degenerate[k]];
+      if (other == &first) continue;
+      take_leaves(first, *other);
+      other = nullptr;
+    }
+  }
+  std::erase(found, nullptr);
 }
 
 std::vector<CoverBox> collect_points(const std::vector<Found*>& found, const std::vector<double>& gaps, const Ended& ended,

@@ -51,6 +51,18 @@ TEST_P(RecordedProof, IsAcceptedByTheChecker) {
   }
 }
 
+// Those about the apex are one box.
+TEST(RecordedProof, SpeaksOfBoxesThatWereMerged) {
+  const char* const cone = "[SYSTEM VARS]\nx : [-1, 1]\ny : [-1, 1]\nz : [-1, 1]\n[SYSTEM EQS]\nx^2 + 2*y^2 = z^2;\n";
+  const System system = symbolic::algebrize(symbolic::plain_system(symbolic::parse_model(cone, "cone")));
+  const Cover cover = proven(system, 0.1, 1);
+  ASSERT_TRUE(cover.proof);
+  EXPECT_EQ(cover.count(Verdict::undecided), 1u);
+  const check::Report report = check::check(system, cover);
+  EXPECT_TRUE(report.proof.verified);
+  EXPECT_TRUE(report.failures.empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Models, RecordedProof,
                          testing::Values(ProofCase{"three_slider", "L2", "1", SingularitySet::forward, 1e-6},
                                          ProofCase{"three_slider", "L2", "1", SingularitySet::inverse, 1e-6},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 
 #include "corank/tests/cover_lookup.h"
 #include "corank/tests/seeds.h"
@@ -59,6 +60,34 @@ void expect_undecided_at(const test::CoverLookup& lookup, const Point& p) {
       EXPECT_EQ(b.verdict, Verdict::undecided) << b.box[0] << b.box[1];
     }
   });
+}
+
+// a (x − p)² + b (y − q)² = c (z − r)², at random places: the surroundings of the apex are one box.
+TEST(Degenerate, AnApexIsOneUndecidedBox) {
+  for (unsigned seed = 0; seed < test::seeds(6); ++seed) {
+    std::mt19937 random(seed);
+    const auto below = [&](int n) { return static_cast<int>(random() % n); };
+    SystemBuilder builder;
+    std::vector<SystemBuilder::Term> terms;
+    Point apex;
+    int constant = 0;
+    for (const char* const name : {"x", "y", "z"}) {
+      const int variable = builder.variable(name, "-1", "1"), sixteenths = below(21) - 10;
+      const int weight = (1 + below(4)) * (apex.size() == 2 ? -1 : 1);
+      terms.push_back({std::to_string(256 * weight), {{variable, 2}}});
+      terms.push_back({std::to_string(-32 * weight * sixteenths), {{variable, 1}}});
+      constant += weight * sixteenths * sixteenths;
+      apex.push_back(sixteenths / 16.0);
+    }
+    terms.push_back({std::to_string(constant), {}});
+    builder.equation(terms);
+    const Cover cover = solve_with(builder.system(), 0.1);
+    EXPECT_TRUE(cover.complete());
+    EXPECT_EQ(cover.count(Verdict::undecided), 1u) << "seed " << seed;
+    expect_undecided_at(test::CoverLookup(cover), apex);
+    for (const CoverBox& box : cover.boxes)
+      for (const Interval& side : box.box) EXPECT_TRUE(box.verdict != Verdict::undecided || side.width() < 0.04) << seed;
+  }
 }
 
 TEST(Degenerate, TheAxesCrossAndNothingIsLostNearTheOrigin) {

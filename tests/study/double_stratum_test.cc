@@ -87,7 +87,7 @@ TEST(DoubleStratum, AndTheRestLoseNothing) {
 // Where the three rods are in line with a slide.
 TEST(DoubleStratum, LeavesThreePlacesUndecided) {
   const result::Result result = answer(Orthoglide{}.question(), {});
-  EXPECT_THAT(to_table(result), testing::ContainsRegex("undecided, [0-9]+ in 3 places: next to a degenerate solution"));
+  EXPECT_THAT(to_table(result), testing::HasSubstr("undecided, 3: next to a degenerate solution"));
   for (const CoverBox& box : result.cover.boxes) {
     if (box.verdict != Verdict::undecided) continue;
     const auto near = [&](int d, int x) { return box.box[d].mid() > 1.9 && box.box[x].mid() > 0.9; };
