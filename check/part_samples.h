@@ -1,9 +1,9 @@
 // A set that is solved in parts: samples of the set are looked for in the parts, and samples of the parts in the set.
 //
-// The parts are made by exact algebra (symbolic/sets/set_parts.h), and a check makes them again by the same. This is a second
-// opinion, by numbers alone, which knows nothing of factors, blocks or products. It refuses no parts that are right: each
-// sample is proven to be a solution (solution_near), and what is said against the parts is proven, too: that no part, or not
-// the set, has a solution with the sample's coordinates. It proves nothing for them.
+// The parts are made by exact algebra (symbolic/sets/set_parts.h), and a check makes them again by the same. This is a
+// second opinion, by numbers alone, which knows nothing of factors, blocks or products. It refuses no parts that are right:
+// each sample is proven to be a solution (solution_near), and what is said against the parts is proven, too: that no part,
+// or not the set, has a solution with the sample's coordinates. It proves nothing for them.
 #pragma once
 
 #include <cstdint>

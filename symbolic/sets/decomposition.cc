@@ -6,6 +6,7 @@
 
 #include "corank/certify/compiled_system.h"
 #include "corank/core/rounding.h"
+#include "corank/symbolic/algebra/exact_algebra.h"
 #include "corank/symbolic/algebra/ginac_bridge.h"
 #include "corank/symbolic/algebra/ginac_lock.h"
 #include "corank/symbolic/sets/algebrizer.h"
@@ -150,6 +151,16 @@ class RightAngles {
   GiNaC::exmap values_;
 };
 
+// Entries that are 0 by the values of the constants, as k5 − half s of two rods that are parallel, become so.
+void clear_zeros(const Mechanism& mechanism, ExpressionMatrix& matrix) {
+  if (!mechanism.toleranced().empty()) return;
+  const GinacLock lock;
+  const ExactAlgebra algebra(mechanism);
+  for (std::vector<Expression>& row : matrix.rows)
+    for (Expression& e : row)
+      if (!same_tree(e, 0) && algebra.value(e).is_zero()) e = Expression(0);
+}
+
 class Decomposer {
  public:
   Decomposer(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi,
@@ -271,6 +282,7 @@ std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestio
     fixed.put_into(phi);
     for (std::vector<Expression>& row : matrix.rows) fixed.put_into(row);
   }
+  clear_zeros(mechanism, matrix);
   // A row of zeros, which a dependency has, says nothing about the kernel.
   std::erase_if(matrix.rows, [](const std::vector<Expression>& row) {
     return std::ranges::all_of(row, [](const Expression& e) { return same_tree(e, 0); });
