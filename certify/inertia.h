@@ -1,5 +1,5 @@
 // How many eigenvalues of a symmetric matrix are positive and negative, on all of space or on the kernel of another matrix:
-// the index of a critical point, the sign of a second-order form; and determinants.
+// the index of a critical point, the sign of a second-order form; and the signs of determinants.
 #pragma once
 
 #include <optional>
@@ -48,15 +48,10 @@ std::optional<IntervalMatrix> kernel_basis(const IntervalMatrix& a, const std::v
 /// basis V of kernel_basis() is VᵀHV.
 std::optional<Inertia> inertia_on_kernel(const IntervalMatrix& h, const IntervalMatrix& a);
 
-/// Encloses det A for every A in the n×n interval matrix, n ≤ 12; 1 for n = 0. Requires UpwardRounding::active(). Theorem
-/// (Laplace): the minor of the first k rows and k columns S is the alternating sum over j ∈ S of the entries of row k with
-/// the minors of the first k − 1 rows and S∖{j}.
-Interval determinant(const IntervalMatrix& a);
-
-/// ±1, or 0 where it is not shown. Requires a square matrix and UpwardRounding::active(). Theorem (interval Gaussian
-/// elimination, key Neumaier1990, ch. 4): for each matrix A in the interval matrix, elimination with rows and columns
-/// exchanged alike keeps det A but for the exchanges' signs; the pivots of A lie in the interval pivots, so none is 0 where
-/// none of those has a 0, and det A is their product.
+/// The sign of a determinant: ±1, or 0 where it is not shown. Requires a square matrix and UpwardRounding::active(). Theorem
+/// (interval Gaussian elimination, key Neumaier1990, ch. 4): for each matrix A in the interval matrix, elimination with rows
+/// and columns exchanged alike keeps det A but for the exchanges' signs; the pivots of A lie in the interval pivots, so none
+/// is 0 where none of those has a 0, and det A is their product.
 int determinant_sign(IntervalMatrix a);
 
 }  // namespace corank::certify

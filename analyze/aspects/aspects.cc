@@ -21,7 +21,7 @@ void add_determinant_signs(const AspectEquations& equations, Aspects& result) {
     certify::IntervalMatrix values(n, n);
     for (std::size_t i = 0; i < at.size(); ++i) {
       for (int e = 0; e < n * n; ++e) values.entries[e] = compiled.evaluate(compiled.value_row(e), at[i]);
-      result.determinant_signs[i][k] = sign_of(certify::determinant(values));
+      result.determinant_signs[i][k] = certify::determinant_sign(values);
     }
   }
 }

@@ -6,11 +6,9 @@
 
 #include "corank/certify/compiled_system.h"
 #include "corank/core/rounding.h"
-#include "corank/symbolic/algebra/exact_algebra.h"
-#include "corank/symbolic/algebra/ginac_bridge.h"
-#include "corank/symbolic/algebra/ginac_lock.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/velocity/exact_matrix.h"
+#include "corank/symbolic/velocity/known_values.h"
 #include "corank/symbolic/velocity/passive_rates.h"
 
 namespace corank::symbolic {
@@ -123,42 +121,6 @@ std::vector<DependentAngle> dependent_angles_of(const Space& space, const Expres
   for (const int quarters : {0, 2}) angles.push_back({later, earlier, sign, quarters + (is_sine ? 0 : 1)});
   const bool both = std::ranges::all_of(angles, [&](const DependentAngle& angle) { return space.has_system(angle); });
   return both ? angles : std::vector<DependentAngle>{};
-}
-
-// Angles that have one value are replaced by it where their sines and cosines are 0 or ±1. Of another value cos² + sin² = 1
-// is worth more than its name.
-class RightAngles {
- public:
-  explicit RightAngles(const Mechanism& mechanism) : bridge_(mechanism) {
-    for (const Coordinate& c : mechanism.coordinates()) {
-      if (c.kind != CoordinateKind::angle || !symbolic::is_fixed(c)) continue;
-      const GiNaC::ex value = bridge_.to_ginac(c.lower, c.where);
-      if (GiNaC::ex(GiNaC::sin(2 * value)).is_zero()) values_[bridge_.symbol(c.name)] = value;
-    }
-  }
-
-  void put_into(std::vector<Expression>& expressions) const {
-    if (values_.empty()) return;
-    for (Expression& e : expressions) {
-      const GiNaC::ex written = bridge_.to_ginac(e, {}), value = written.subs(values_);
-      if (!value.is_equal(written)) e = bridge_.to_expression(value.expand());
-    }
-  }
-
- private:
-  const GinacLock lock_{};
-  const GinacBridge bridge_;
-  GiNaC::exmap values_;
-};
-
-// Entries that are 0 by the values of the constants, as k5 − half s of two rods that are parallel, become so.
-void clear_zeros(const Mechanism& mechanism, ExpressionMatrix& matrix) {
-  if (!mechanism.toleranced().empty()) return;
-  const GinacLock lock;
-  const ExactAlgebra algebra(mechanism);
-  for (std::vector<Expression>& row : matrix.rows)
-    for (Expression& e : row)
-      if (!same_tree(e, 0) && algebra.value(e).is_zero()) e = Expression(0);
 }
 
 class Decomposer {
@@ -277,12 +239,7 @@ class Decomposer {
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended) {
   ExpressionMatrix matrix = kernel.matrix;
   std::vector<Expression> phi = residuals(mechanism);
-  {
-    const RightAngles fixed(mechanism);
-    fixed.put_into(phi);
-    for (std::vector<Expression>& row : matrix.rows) fixed.put_into(row);
-  }
-  clear_zeros(mechanism, matrix);
+  put_in_known_values(mechanism, matrix, phi);
   // A row of zeros, which a dependency has, says nothing about the kernel.
   std::erase_if(matrix.rows, [](const std::vector<Expression>& row) {
     return std::ranges::all_of(row, [](const Expression& e) { return same_tree(e, 0); });

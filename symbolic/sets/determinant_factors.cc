@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "corank/symbolic/model/expression_words.h"
+#include "corank/symbolic/velocity/known_values.h"
 
 namespace corank::symbolic {
 namespace {
@@ -21,7 +22,10 @@ std::size_t place_of(const Expression& e, std::size_t known, std::vector<Express
 
 std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended,
                                             std::vector<Expression>* constants) {
-  ExactMatrix m(mechanism, matrix, residuals(mechanism));
+  ExpressionMatrix known = matrix;
+  std::vector<Expression> phi = residuals(mechanism);
+  put_in_known_values(mechanism, known, phi);
+  ExactMatrix m(mechanism, known, phi);
   m.put_into_free_coordinates(ended);
   m.eliminate_numbers();
   const auto vanishing = [&]() -> ModelError {

@@ -12,6 +12,7 @@
 
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
+#include "corank/symbolic/sets/determinant_factors.h"
 #include "corank/tests/cover_lookup.h"
 #include "corank/tests/study/samples.h"
 
@@ -72,6 +73,8 @@ TEST(Delta, InItsModeOfTranslationsHasPartsOfThreeRows) {
     const std::vector<Question> parts = parts_of(delta(set));
     EXPECT_EQ(parts.size(), count);
     for (const Question& part : parts) EXPECT_FALSE(std::get<symbolic::Component>(*part.part).block) << text(*part.part);
+    const symbolic::Mechanism& model = parts[0].model;  // those that divide C-space into aspects are the same
+    EXPECT_EQ(symbolic::determinant_factors(model, symbolic::locked_matrix(model, set)).size(), count);
   }
 }
 
