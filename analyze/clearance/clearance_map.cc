@@ -7,15 +7,10 @@
 #include <chrono>
 
 #include "corank/analyze/clearance/json.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
-
-Interval part_of(const Interval& side, int k, int n) {
-  const auto at = [&](int j) { return j == n ? side.hi() : side.lo() + (side.hi() - side.lo()) * j / n; };
-  return {at(k), at(k + 1)};
-}
-
 namespace {
 
 const char* word(MapCell::Robot robot) {

@@ -41,9 +41,6 @@ struct MapOptions {
   std::function<void(std::size_t done, std::size_t all)> progress{};
 };
 
-/// The k-th of n equal parts of a side; neighbours share their end.
-Interval part_of(const Interval& side, int k, int n);
-
 /// `region`: two coordinates. Throws ModelError.
 ClearanceMap clearance_map(const study::Question& question, const BallOptions& ball, const std::vector<NamedRange>& region,
                            const MapOptions& options, const solve::Options& search, solve::Control& control);

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "corank/analyze/aspects/aspects.h"
-#include "corank/analyze/clearance/clearance_map.h"
 #include "corank/analyze/sets/fold_system.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/certify/requirement.h"
