@@ -158,13 +158,6 @@ void add(const Report& part, const std::string& name, bool first, Report& sum) {
   add_failures(part, "part: " + name, sum);
 }
 
-bool same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const CoverBox& x, const CoverBox& y) {
-    return x.box == y.box && x.verdict == y.verdict && x.passage == y.passage && x.side == y.side && x.part == y.part &&
-           x.free == y.free && x.reason == y.reason;
-  });
-}
-
 // Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the
 // polynomials' text (comments aside) and the options.
 std::vector<std::string> contradictions(const Result& result, const System& system) {
@@ -221,11 +214,7 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
       if (std::ranges::find(free, name) == free.end())
         list.push_back(fmt::format("(part: {}) {} is not free", part.part, name));
   }
-  Result merged = result;
-  merge_parts(merged);
-  if (!same_boxes(merged.cover.boxes, result.cover.boxes) || !same_boxes(merged.cover.points, result.cover.points) ||
-      merged.cover.dimension != result.cover.dimension || merged.outputs != result.outputs)
-    list.emplace_back("the whole is not made of its parts");
+  if (!is_made_of_parts(result)) list.emplace_back("the whole is not made of its parts");
   return list;
 }
 
