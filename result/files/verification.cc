@@ -125,7 +125,7 @@ Json to_json(const Tally& t) { return {{"verified", t.verified}, {"failed", t.fa
 System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
   if (result.part.empty()) return symbolic::configurations(mechanism);
   for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, set))
-    if (text(part) == result.part)
+    if (is_named(part, result.part))
       return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
   throw ResultFileError("the result's model has no part '" + result.part + "'");
 }
@@ -200,7 +200,7 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
   if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
   const std::vector<symbolic::SetPart> expected = symbolic::set_parts(model, *set);
   const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(),
-                              [](const symbolic::SetPart& a, const Result& b) { return text(a) == b.part; });
+                              [](const symbolic::SetPart& a, const Result& b) { return is_named(a, b.part); });
   if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
   std::vector<std::string> list;
   for (std::size_t i = 0; i < expected.size(); ++i) {

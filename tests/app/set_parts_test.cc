@@ -140,6 +140,35 @@ TEST(SetPartsOnTheCommandLine, SayTheirExactPointsAsOtherSetsDo) {
   EXPECT_EQ(old.status, 4) << old.out;
 }
 
+// The rails' directions are (-1/2, ±h) in the file; without a name for √3/2 corank gives it one.
+TEST(SetPartsOnTheCommandLine, HaveNoNamesWithConstantsThatNobodyWrote) {
+  const TemporaryFolder folder;
+  std::string text = read_text(model("planar/3prr"));
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  };
+  replace("(-1/2, h, 0)", "(-1/2, sqrt(3)/2, 0)");
+  replace("(-1/2, -h, 0)", "(-1/2, -sqrt(3)/2, 0)");
+  folder.write("rails.cuik", text);
+  const Outcome asked = run_corank({"solve", folder.file("rails.cuik"), "--set", "inverse", "--sigma", "inf", "--json",
+                                    folder.file("r.json"), "-o", folder.file("r.h5")});
+  EXPECT_EQ(asked.status, 0) << asked.err;
+  EXPECT_THAT(asked.out, AllOf(HasSubstr("\n  1.73205*sin(psi2) - cos(psi2) = 0  "),
+                               HasSubstr("\n  1.73205*sin(psi3) + cos(psi3) = 0  "), HasSubstr("\n  cos(psi1) = 0  ")));
+  EXPECT_EQ(json::parse(read_text(folder.file("r.json")))["parts"][0]["condition"], "2*k1*sin(psi2) - cos(psi2) = 0");
+  EXPECT_THAT(run_corank({"derive", folder.file("rails.cuik"), "--set", "inverse"}).out,
+              HasSubstr("Constants that corank has named:\n  k1 = 0.5*sqrt(3)\n"));
+  EXPECT_EQ(run_corank({"verify", folder.file("r.h5")}).status, 4);
+  result::Result result = result::read_result(folder.file("r.h5"));
+  result.parts[0].part = "2*k1*sin(psi2) - cos(psi2) = 0";  // as an older program called it
+  result::write_result(folder.file("r.h5"), result);
+  EXPECT_EQ(run_corank({"verify", folder.file("r.h5")}).status, 4);
+  result.parts[0].part = "1.73206*sin(psi2) - cos(psi2) = 0";
+  result::write_result(folder.file("r.h5"), result);
+  EXPECT_EQ(run_corank({"verify", folder.file("r.h5")}).status, 1);
+}
+
 TEST(SetPartsOnTheCommandLine, AreLeftTogetherWhereAKernelIsAskedFor) {
   const Outcome whole = run_corank({"solve", model("dextar"), "--set", "inverse"});
   EXPECT_THAT(whole.out, HasSubstr("kernel right"));
