@@ -384,6 +384,7 @@ ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOption
   });
   ParameterMap map = mapper.assemble(std::move(tiles));
   map.critical = std::move(critical);
+  if (!map.complete) map.stopped = solve::stopped_by(control);
   map.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return map;
 }
