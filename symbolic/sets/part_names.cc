@@ -20,7 +20,15 @@ bool is_rational(const Expression& e) {
          std::ranges::all_of(e.operands(), is_rational);
 }
 
-Expression rounded_number(double magnitude) { return Expression::number(fmt::format("{:.6g}", magnitude)); }
+constexpr std::ptrdiff_t kNameDigits = 6;
+constexpr double kLongNumber = 1e6;
+
+bool has_long_number(const Expression& e) {
+  if (e.kind() != Kind::number) return std::ranges::any_of(e.operands(), has_long_number);
+  return std::ranges::count_if(e.name(), [](char c) { return c >= '0' && c <= '9'; }) > kNameDigits;
+}
+
+Expression rounded_number(double magnitude) { return Expression::number(fmt::format("{:.{}g}", magnitude, kNameDigits)); }
 
 class RoundedValues {
  public:
@@ -36,17 +44,21 @@ class RoundedValues {
   }
 
   bool are_in(const Expression& e) const {
-    return std::ranges::any_of(values_, [&e](const auto& value) { return e.mentions(value.first); });
+    return has_long_number(e) || std::ranges::any_of(values_, [&e](const auto& value) { return e.mentions(value.first); });
   }
 
-  // Of what is 0: the first term has no minus sign.
+  // Of what is 0: a power of ten may be left out, and the first term has no minus sign.
   Expression put_into(const Expression& zero) const {
-    if (zero.kind() != Kind::sum) return put_into_term(zero);
-    std::vector<Expression> terms;
-    for (const Expression& term : zero.operands()) terms.push_back(put_into_term(term));
-    if (terms.front().kind() == Kind::negation)
-      for (Expression& term : terms) term = term.kind() == Kind::negation ? term.operands()[0] : -term;
-    return Expression::node(Kind::sum, terms);
+    std::vector<Term> terms;
+    double most = 0;
+    for (const Expression& e : zero.kind() == Kind::sum ? zero.operands() : std::vector{zero}) {
+      multiply(e, terms.emplace_back());
+      most = std::max(most, std::fabs(terms.back().factor));
+    }
+    const double power = most < kLongNumber ? 1 : std::pow(10, std::floor(std::log10(most)));
+    std::vector<Expression> sum;
+    for (const Term& term : terms) sum.push_back(written(term, terms.front().factor < 0 ? -power : power));
+    return Expression::node(Kind::sum, sum);
   }
 
  private:
@@ -56,15 +68,12 @@ class RoundedValues {
     std::vector<Expression> rest{};
   };
 
-  Expression put_into_term(const Expression& e) const {
-    if (!are_in(e)) return e;
-    Term term;
-    multiply(e, term);
-    const Expression magnitude = rounded_number(std::fabs(term.factor));
-    std::vector<Expression>& factors = term.rest;
+  static Expression written(const Term& term, double scale) {
+    const Expression magnitude = rounded_number(std::fabs(term.factor / scale));
+    std::vector<Expression> factors = term.rest;
     if (factors.empty() || magnitude.name() != "1") factors.insert(factors.begin(), magnitude);
     const Expression product = Expression::node(Kind::product, factors);
-    return term.factor < 0 ? -product : product;
+    return term.factor / scale < 0 ? -product : product;
   }
 
   void multiply(const Expression& e, Term& term) const {

@@ -1,6 +1,7 @@
 // Names of a set's parts for people. A robot's equations have constants of corank's own, "k1", where a dimension would take
-// a long text. Nobody has written them, so a name has their values in place of them, rounded: "k1*cos(psi) - sin(psi) = 0"
-// is called "1.73205*cos(psi) - sin(psi) = 0". The condition itself is exact.
+// a long text, and whole numbers of many digits where its dimensions are decimals. Nobody has written these, so a name has
+// rounded numbers in place of them: "2*k1*cos(psi) - sin(psi) = 0" is called "1.73205*cos(psi) - sin(psi) = 0". The
+// condition itself is exact.
 #pragma once
 
 #include <vector>

@@ -6,7 +6,7 @@
 namespace corank::symbolic {
 namespace {
 
-TEST(PartNames, HaveRoundedValuesInPlaceOfCoranksOwnConstants) {
+TEST(PartNames, HaveRoundedValuesInPlaceOfCoranksOwnConstantsAndOfLongNumbers) {
   Mechanism mechanism("m");
   for (const auto& [name, value] : {std::pair("l", "2"), {"k1", "1/3"}, {"k2", "sqrt(2)"}, {"k3", "-k2"}, {"kx", "sqrt(3)"}})
     mechanism.constant(name, value);
@@ -23,6 +23,9 @@ TEST(PartNames, HaveRoundedValuesInPlaceOfCoranksOwnConstants) {
   EXPECT_EQ(name_of("x + k2"), "x + 1.41421 = 0");
   EXPECT_EQ(name_of("1/2*k2^2*x - y"), "x - y = 0");
   EXPECT_EQ(name_of("x*sin(y + k3)"), "x*sin(y - 1.41421) = 0");
+  EXPECT_EQ(name_of("500000000*cos(x) - 3987654321*sin(x)"), "0.5*cos(x) - 3.98765*sin(x) = 0");
+  EXPECT_EQ(name_of("1.2345678*x - l*y"), "1.23457*x - l*y = 0");
+  EXPECT_EQ(name_of("123456*x - l*y"), "123456*x - l*y = 0");
 }
 
 TEST(PartNames, AreNotTheSameWhereValuesRoundToTheSame) {
