@@ -1,6 +1,7 @@
 #include "corank/result/values/result.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "corank/core/check.h"
 #include "corank/symbolic/model/model_file.h"
