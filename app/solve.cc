@@ -177,7 +177,8 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   const std::optional<Interval> area = area_of(command, question, result, control);
   line.clear();
   remove_checkpoint(command, result);
-  if (bounds_an_area(question) && result.stopped.empty()) result.stopped = stopped_by(control);  // of the area
+  // Boxes are limited for the set, not for its area.
+  if (bounds_an_area(question) && result.stopped.empty() && control.ended()) result.stopped = stopped_by(control);
   return say(command, result, area, journal.left_out());
 }
 
