@@ -38,16 +38,15 @@ ExitStatus aspects(AspectsCommand command) {
   line.follow(control);
   const analyze::Aspects result = analyze::aspects(question, command.options, control);
   line.clear();
-  const bool complete = !control.ended();
-  if (drawn && complete) {
+  if (drawn && result.stopped.empty()) {
     if (!result.drawing || result.drawing->pieces.empty())
       throw UsageError(fmt::format("{}: a picture needs aspects of two dimensions, with two outputs or two inputs",
                                    command.question.file));
     result::write_text(command.output, to_svg(report::aspects_picture(question.model.name(), result)));
   }
-  if (command.json.say([&] { return to_json(question, result, complete); }))
+  if (command.json.say([&] { return to_json(question, result); }))
     fmt::print("{}", result::printable(to_text(question, result)));
-  if (!complete) return stopped_early(control);
+  if (!result.stopped.empty()) return stopped_early(result.stopped);
   if (!command.options.certificate) return kDone;
   if (!result.cover) {
     fmt::print(stderr, "corank: {} is not written: nothing was found that it could prove\n",

@@ -43,12 +43,6 @@ auto shown_radius(ProgressLine& line, const char* what) {
   };
 }
 
-ExitStatus not_close(const std::string& stopped) {
-  fmt::print(stderr, "corank: {}the bounds hold, but are not as close as asked for\n",
-             stopped.empty() ? "" : "stopped by " + stopped + "; ");
-  return kIncomplete;
-}
-
 // "x=[a,b]", "y=[c,d]"; for --map "x", "y" as well, the declared ranges.
 std::vector<analyze::NamedRange> region_of(const std::vector<std::string>& texts, const std::string& option,
                                            const study::Question& question) {
@@ -114,6 +108,7 @@ ExitStatus run_clearance(ClearanceCommand command) {
   clearance.postures = postures_of(run);
   run.line.show("writing what corank verify checks");
   const bool proven = write_claims(command, clearance, run.search, run.control());
+  if (!proven) clearance.stopped = stopped_by(run.control());
   run.line.clear();
   const ExitStatus status = say(command, clearance);
   return proven ? status : kIncomplete;
@@ -167,11 +162,11 @@ ExitStatus run_map(ClearanceCommand command) {
     if (map.empty)
       fmt::print("it is proven that the set {} has no configuration in the ranges\n",
                  symbolic::definition(run.question.set).name);
-    fmt::print("{} cells, {} boxes processed, {:.3f} s: {}\n", map.cells.size(), map.processed, map.seconds,
-               result::printable(command.output));
+    fmt::print("{} cells, {} boxes processed, {:.3f} s: {}\n{}", map.cells.size(), map.processed, map.seconds,
+               result::printable(command.output), analyze::stopped_line(map.stopped));
   }
   if (map.complete) return kDone;
-  fmt::print(stderr, "corank: some cells were not examined{}; the bounds of the others hold\n", ending_words(run.control()));
+  fmt::print(stderr, "corank: some cells were not examined, stopped by {}; the bounds of the others hold\n", map.stopped);
   return kIncomplete;
 }
 

@@ -49,7 +49,7 @@ ExitStatus find_out(CuspidalCommand command) {
                     command.options.threads, run.control());
   if (command.json.say([&] { return to_json(found, question.model.name(), command.output); }))
     fmt::print("{}", result::printable(to_text(found, question.model.name())));
-  return found.complete ? kDone : stopped_early(run.control());
+  return found.complete ? kDone : stopped_early(found.stopped);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // corank derive: the equations, for people (text, latex) and for programs (cuik); the model itself (model).
 
+#include <cctype>
 #include <filesystem>
 
 #include "corank/app/subcommands.h"
@@ -9,6 +10,7 @@
 #include "corank/symbolic/model/text_file.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/parameters.h"
+#include "corank/symbolic/sets/part_names.h"
 #include "corank/symbolic/writing/line_breaks.h"
 #include "corank/symbolic/writing/printer.h"
 
@@ -61,6 +63,24 @@ std::string left_out(const std::vector<symbolic::LeftOut>& list, const std::stri
   return lines;
 }
 
+bool has_word(const std::string& text, const std::string& word) {
+  const auto is_of_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += word.size()) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_of_name(text[at - 1])) && (end == text.size() || !is_of_name(text[end]))) return true;
+  }
+  return false;
+}
+
+/// What nobody has declared, as far as the equations, or another such constant, have it: "k1 = sqrt(3)/2".
+std::string named_constants(const symbolic::Mechanism& model, const std::string& equations) {
+  std::string lines;
+  for (auto c = model.constants().rbegin(); c != model.constants().rend(); ++c)
+    if (symbolic::is_of_corank(*c) && (has_word(equations, c->name) || has_word(lines, c->name)))
+      lines = "  " + symbolic::broken(c->name + " = " + c->value.text(), 2, 6) + "\n" + lines;
+  return lines.empty() ? "" : "Constants that corank has named:\n" + lines;
+}
+
 bool moves_freely(const study::Question& question) { return question.assembly && question.model.constraints().empty(); }
 
 // The question, with its set, and the systems of that set.
@@ -107,7 +127,9 @@ std::string text_of(const Derived& d, const std::string& format) {
            symbolic::broken_model(symbolic::to_model(question.model));
   if (format == "cuik") return head + symbolic::broken_model(symbolic::to_cuik(symbolic::algebrize(d.systems.front())));
   const symbolic::Derivation derivation = symbolic::derive(question.model);
-  return head + (format == "latex" ? symbolic::to_latex(derivation, d.systems) : symbolic::to_text(derivation, d.systems));
+  if (format == "latex") return head + symbolic::to_latex(derivation, d.systems);
+  const std::string equations = symbolic::to_text(derivation, d.systems);
+  return head + named_constants(question.model, equations) + equations;
 }
 
 ExitStatus derive(const CLI::App& sub, DeriveCommand command) {

@@ -14,16 +14,20 @@ bool warn_of_assembly(const result::Result& result) {
   return true;
 }
 
-ExitStatus stopped_early(const solve::Control& control) {
-  // A part with a control of its own may have seen the time limit first.
-  const auto ending = control.ended() ? control.ending() : std::nullopt;
-  fmt::print(stderr, "corank: stopped by {}; what is printed is proven, but more could have been\n",
-             ending ? to_string(*ending) : "a limit");
+ExitStatus stopped_early(const std::string& stopped) {
+  fmt::print(stderr, "corank: stopped by {}; what is printed is proven, but more could have been\n", stopped);
+  return kIncomplete;
+}
+
+ExitStatus not_close(const std::string& stopped) {
+  fmt::print(stderr, "corank: {}the bounds hold, but are not as close as asked for\n",
+             stopped.empty() ? "" : "stopped by " + stopped + "; ");
   return kIncomplete;
 }
 
 std::string ending_words(const solve::Control& control) {
-  return control.ended() ? ", stopped by " + to_string(*control.ending()) : "";
+  const std::string stopped = stopped_by(control);
+  return stopped.empty() ? "" : ", stopped by " + stopped;
 }
 
 }  // namespace corank::app

@@ -27,8 +27,10 @@ class UsageError : public std::runtime_error {
 
 /// Warns, where a set is empty, of a robot that cannot be assembled, of decimals that contradict each other. True: it did.
 bool warn_of_assembly(const result::Result& result);
-/// Says what ended an analysis early whose numbers are proven at any time.
-ExitStatus stopped_early(const solve::Control& control);
+/// Says what ended an analysis early whose numbers are proven at any time: solve::stopped_by().
+ExitStatus stopped_early(const std::string& stopped);
+/// The same of proven bounds; without a limit they may be wide as well.
+ExitStatus not_close(const std::string& stopped);
 /// ", stopped by the time limit, in the stage search"; empty where nothing has ended it.
 std::string ending_words(const solve::Control& control);
 

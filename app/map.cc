@@ -128,7 +128,7 @@ ExitStatus write_map(const CLI::App& sub, MapCommand command) {
     }
   }
   if (command.json.say([&] { return to_json(map); })) fmt::print("{}", result::printable(to_table(map)));
-  return map.complete ? kDone : stopped_early(control);
+  return map.complete ? kDone : stopped_early(map.stopped);
 }
 
 }  // namespace

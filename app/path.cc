@@ -62,8 +62,11 @@ ExitStatus path(PathCommand command) {
     boxes = {finder.end(from, command.from_mode, "--from", control), finder.end(to, command.to_mode, "--to", control)};
   } catch (const analyze::EndError& error) {
     line.clear();
-    fmt::print(stderr, "corank: {}\n", result::printable(error.what()));
-    return control.ended() ? kIncomplete : kBadInput;
+    const std::string what = error.what(), stopped = stopped_by(control);
+    fmt::print(stderr, "corank: {}\n", result::printable(what));
+    if (stopped.empty()) return kBadInput;
+    if (what.find(stopped) == what.npos) fmt::print(stderr, "corank: stopped by {}\n", stopped);
+    return kIncomplete;
   }
   const analyze::Path found = finder.find(boxes[0], boxes[1], control);
   line.clear();
@@ -73,9 +76,10 @@ ExitStatus path(PathCommand command) {
     write_path_page(command.report, question, report::path_view(finder, found), command.line(),
                     found.tube ? command.output : "", command.options.threads, control);
   if (command.json.say([&] { return to_json(finder, found); })) fmt::print("{}", result::printable(to_text(finder, found)));
-  if (found.status == analyze::Path::Status::unknown) return kIncomplete;
-  if (control.ended())
-    fmt::print(stderr, "corank: what is said is proven{}; the path might keep farther away\n", ending_words(control));
+  if (found.status == analyze::Path::Status::unknown)
+    return found.stopped.empty() ? kIncomplete : stopped_early(found.stopped);
+  if (!found.stopped.empty())
+    fmt::print(stderr, "corank: what is said is proven, stopped by {}; the path might keep farther away\n", found.stopped);
   return kDone;
 }
 

@@ -1,8 +1,6 @@
 // corank postures: all configurations in which some coordinates have given values.
 #include "corank/analyze/postures/postures.h"
 
-#include <algorithm>
-
 #include "corank/analyze/postures/posture_table.h"
 #include "corank/app/subcommands.h"
 #include "corank/symbolic/model/model_file.h"
@@ -42,8 +40,8 @@ ExitStatus find_postures_of_table(const PosturesCommand& command) {
   if (!command.output.empty()) result::write_text(command.output, to_csv(finder, found));
   if (command.json.say([&] { return to_json(finder, found, compared); }))
     fmt::print("{}", result::printable(to_table(finder, found, compared)));
-  const bool complete = std::ranges::all_of(found, [](const analyze::Postures& p) { return p.complete; });
-  return complete ? kDone : stopped_early(run.control());
+  const std::string stopped = analyze::stopped_by(found);
+  return stopped.empty() ? kDone : stopped_early(stopped);
 }
 
 ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
@@ -71,7 +69,7 @@ ExitStatus find_postures(const CLI::App& sub, PosturesCommand command) {
   const analyze::Postures found = finder.find(values, orientation, run.control(), command.threads);
   line.clear();
   if (command.json.say([&] { return to_json(finder, found); })) fmt::print("{}", result::printable(to_table(finder, found)));
-  return found.complete ? kDone : stopped_early(run.control());
+  return found.complete ? kDone : stopped_early(found.stopped);
 }
 
 }  // namespace

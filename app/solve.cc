@@ -87,7 +87,7 @@ void say_left_out(const SolveCommand& command, std::uint64_t bytes) {
 }
 
 ExitStatus say(const SolveCommand& command, const result::Result& result, const std::optional<Interval>& area,
-               const std::string& area_missed, std::uint64_t left_out) {
+               std::uint64_t left_out) {
   if (command.json.say([&] { return result::to_json(result, area); })) {
     fmt::print("{}", result::printable(result::to_table(result)));
     constexpr double kRoom = 1e-6;  // more than what the digits round
@@ -95,11 +95,6 @@ ExitStatus say(const SolveCommand& command, const result::Result& result, const 
       fmt::print("area of the workspace: from {:.7g} to {:.7g}\n", area->lo() * (1 - kRoom), area->hi() * (1 + kRoom));
   }
   warn_of_assembly(result);
-  if (result.cover.complete() && result.stopped.empty() && !area_missed.empty()) {
-    fmt::print(stderr, "corank: complete, but the area of the workspace is not bounded as closely as it could be{}\n",
-               area_missed);
-    return kIncomplete;
-  }
   if (result.cover.complete() && result.stopped.empty())
     return result::assembled(result) == std::optional(false) ? kNotAssembled : kDone;
   fmt::print(stderr, "corank: {}; {}\n", study::stopped_words(result),
@@ -182,8 +177,9 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   const std::optional<Interval> area = area_of(command, question, result, control);
   line.clear();
   remove_checkpoint(command, result);
-  const bool area_missed = bounds_an_area(question) && control.ended();
-  return say(command, result, area, area_missed ? ending_words(control) : "", journal.left_out());
+  // Boxes are limited for the set, not for its area.
+  if (bounds_an_area(question) && result.stopped.empty() && control.ended()) result.stopped = stopped_by(control);
+  return say(command, result, area, journal.left_out());
 }
 
 // Cuts the sheets of a former result.
@@ -202,7 +198,7 @@ ExitStatus refine(const CLI::App& sub, const SolveCommand& command) {
   const solve::InStage stage(control, solve::Stage::writing);
   write_file(command.result_path, result, control);
   line.clear();
-  return say(command, result, std::nullopt, "", 0);
+  return say(command, result, std::nullopt, 0);
 }
 
 ExitStatus run_solve(const CLI::App& sub, SolveCommand command) {

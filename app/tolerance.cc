@@ -53,7 +53,7 @@ ExitStatus find_without_ball(const ToleranceCommand& command, const std::string&
   line.clear();
   if (command.json.say([&] { return to_json(question, found); }))
     fmt::print("{}", result::printable(to_table(question, found)));
-  return found.complete() ? kDone : kIncomplete;
+  return found.complete() ? kDone : not_close(found.stopped);
 }
 
 ExitStatus find_aspects_factor(const ToleranceCommand& command) {
@@ -88,7 +88,7 @@ ExitStatus find_factor(ToleranceCommand command) {
       analyze::tolerance_factor(command.load(), command.ball(), command.options, search, run.control());
   line.clear();
   if (command.json.say([&] { return to_json(found); })) fmt::print("{}", result::printable(to_table(found)));
-  return found.complete() ? kDone : kIncomplete;
+  return found.complete() ? kDone : not_close(found.stopped);
 }
 
 }  // namespace

@@ -28,10 +28,9 @@ ExitStatus topology(TopologyCommand command) {
   line.follow(control);
   const analyze::Topology result = analyze::topology(question, command.options, control);
   line.clear();
-  const bool complete = !control.ended();
-  if (command.json.say([&] { return to_json(question, result, complete); }))
+  if (command.json.say([&] { return to_json(question, result); }))
     fmt::print("{}", result::printable(to_text(question, result)));
-  if (!complete) return stopped_early(control);
+  if (!result.stopped.empty()) return stopped_early(result.stopped);
   if (command.output.empty()) return kDone;
   if (!result.certificate) {
     fmt::print(stderr,

@@ -74,6 +74,13 @@ ExitStatus verify_certificate(const VerifyCommand& command, Watch& watch, const 
   return status(command, report.complete(), report.verified(), report.interrupted && report.failures.empty());
 }
 
+// The table and JSON name the stage of the check; what ended it is said here.
+ExitStatus say_ending(ExitStatus status, const solve::Control& control) {
+  if (status == kIncomplete && control.ended())
+    fmt::print(stderr, "corank: stopped by {}\n", to_string(control.ending()->by));
+  return status;
+}
+
 struct Certificate {
   const char* format;
   ExitStatus (*verify)(const VerifyCommand& command, Watch& watch, const Ended& ended);
@@ -98,7 +105,7 @@ ExitStatus verify(VerifyCommand command) {
     if (command.sample > 0)
       throw UsageError(
           fmt::format("--sample: without effect; expected the result of a search, which {} is not", command.input));
-    return certificate->verify(command, watch, ended);
+    return say_ending(certificate->verify(command, watch, ended), control);
   }
   const result::Result result = result::read_result(command.input);
   watch.enter("deriving the equations from the model");
@@ -111,7 +118,7 @@ ExitStatus verify(VerifyCommand command) {
   const ExitStatus result_status = status(verification, command);
   if (verification.verified() && result_status == kBadInput)
     fmt::print(stderr, "corank: --require-proof: this file does not prove that its boxes hold all solutions\n");
-  return result_status;
+  return say_ending(result_status, control);
 }
 
 }  // namespace

@@ -34,6 +34,12 @@ inline bool overlap(std::span<const Interval> a, std::span<const Interval> b) {
   return std::equal(a.begin(), a.end(), b.begin(), [](const Interval& x, const Interval& y) { return x.overlaps(y); });
 }
 
+/// The k-th of n equal parts of a side, up to rounding; neighbours share their end.
+inline Interval part_of(const Interval& side, int k, int n) {
+  const auto at = [&](int j) { return j == n ? side.hi() : side.lo() + (side.hi() - side.lo()) * j / n; };
+  return {at(k), at(k + 1)};
+}
+
 /// Those of the variables 0 … variables − 1 that are not in the list, ascending.
 inline std::vector<int> all_but(std::span<const int> list, int variables) {
   std::vector<int> others;

@@ -34,7 +34,7 @@ py::tuple topology(const Question& question, int threads, int refinements, doubl
   return said(progress, within(time_limit, [question, threads, refinements](solve::Control& control) {
                 const analyze::Topology t =
                     analyze::topology(question, {.threads = threads, .refinements = refinements}, control);
-                return std::tuple(to_json(question, t, !control.ended()), to_text(question, t));
+                return std::tuple(to_json(question, t), to_text(question, t));
               }));
 }
 
@@ -50,8 +50,8 @@ py::tuple aspects(const Question& question, int threads, int halvings, int round
   return said(progress, within(time_limit, [question, options](solve::Control& control) {
                 const analyze::Aspects a = analyze::aspects(question, options, control);
                 std::shared_ptr<result::PiecesFile> file;
-                if (a.cover && !control.ended()) file = std::make_shared<result::PiecesFile>(to_file(question, a));
-                return std::tuple(to_json(question, a, !control.ended()), to_text(question, a), file);
+                if (a.cover && a.stopped.empty()) file = std::make_shared<result::PiecesFile>(to_file(question, a));
+                return std::tuple(to_json(question, a), to_text(question, a), file);
               }));
 }
 

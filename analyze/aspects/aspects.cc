@@ -138,10 +138,13 @@ ExactNumbers exact_numbers_of(const Aspects& a) {
 }
 
 Aspects aspects(study::Question question, const AspectsOptions& options, solve::Control& control) {
-  if (!question.model.toleranced().empty()) return aspects_of_robots(std::move(question), options, control);
-  return count(
-      aspect_equations(std::move(question), options.requirements, options.cusps, [&control] { return control.ended(); }),
-      options, control);
+  const auto one = [&] {
+    const Ended ended = [&control] { return control.ended(); };
+    return count(aspect_equations(std::move(question), options.requirements, options.cusps, ended), options, control);
+  };
+  Aspects result = question.model.toleranced().empty() ? one() : aspects_of_robots(std::move(question), options, control);
+  result.stopped = solve::stopped_by(control);
+  return result;
 }
 
 }  // namespace corank::analyze

@@ -52,6 +52,7 @@ struct Aspects {
   std::vector<int> places;  ///< of the boxes of AspectsOptions::placed: in which aspect (piece_places)
   /// Where constants have tolerances: are the numbers those of every robot? All else is of the one that was drawn.
   std::optional<Robots> robots;
+  std::string stopped;  ///< what ended the analysis early; empty: nothing
 };
 
 struct AspectsOptions {
@@ -82,6 +83,6 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& aspec
 /// A few lines for a terminal.
 std::string to_text(const study::Question& question, const Aspects& aspects);
 /// {"aspects": {"at_least", "at_most"}, "assembly_modes", "working_modes", "representatives" …}; doc/topology.md.
-std::string to_json(const study::Question& question, const Aspects& aspects, bool complete);
+std::string to_json(const study::Question& question, const Aspects& aspects);
 
 }  // namespace corank::analyze

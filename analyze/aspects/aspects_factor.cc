@@ -11,7 +11,7 @@ namespace {
 FactorStep try_at(const study::Question& scaled, double factor, const AspectsFactorOptions& options, solve::Control& control,
                   AspectsFactor& result) {
   const Aspects found = aspects(scaled, {.threads = options.threads}, control);
-  if (control.ended()) return {.obstacle = "the analysis was ended by a limit", .ends = true};
+  if (control.ended()) return {.obstacle = "stopped by " + solve::stopped_by(control), .ends = true};
   result.numbers = exact_numbers_of(found);
   if (result.numbers.size() < 3)
     return {.obstacle = "the numbers of the robot as drawn are not known exactly", .ends = true};
@@ -37,6 +37,7 @@ AspectsFactor aspects_factor(const study::Question& question, const AspectsFacto
     return try_at(scaled, factor, options, control, result);
   };
   search_factor(question, attempt, options.progress, result);
+  result.stopped = solve::stopped_by(control);
   return result;
 }
 

@@ -28,7 +28,7 @@ AspectsFactor aspects_factor(const study::Question& question, const AspectsFacto
 
 std::string to_table(const study::Question& question, const AspectsFactor& factor);
 /// {"model", "keep": {"aspects", …}, "factor": {"lo", "hi" (null: none is proven)}, "tolerances", "robot", "other" (null, or
-/// the numbers of that robot), "complete", "reason", "precision", "steps", "seconds"}.
+/// the numbers of that robot), "complete", "stopped", "reason", "precision", "steps", "seconds"}.
 std::string to_json(const study::Question& question, const AspectsFactor& factor);
 
 }  // namespace corank::analyze

@@ -136,7 +136,7 @@ std::string summary(const Aspects& a) {
 
 std::string to_text(const study::Question& question, const Aspects& a) {
   std::string text = question.model.name() + "\n";
-  if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n";
+  if (!a.reason.empty()) return text + "  not known: " + a.reason + "\n" + stopped_line(a.stopped);
   text += fmt::format("  aspects         {}\n  assembly modes  {}\n  working modes   {}\n", bounds(a.aspects),
                       bounds(a.assembly_modes), bounds(a.working_modes));
   if (a.robots) text += robots_text(*a.robots);
@@ -160,10 +160,10 @@ std::string to_text(const study::Question& question, const Aspects& a) {
     text += area_words(a, k) + "\n";
   }
   if (known > kMostShown) text += fmt::format("  and {} more: --json\n", known - kMostShown);
-  return text;
+  return text + stopped_line(a.stopped);
 }
 
-std::string to_json(const study::Question& question, const Aspects& a, bool complete) {
+std::string to_json(const study::Question& question, const Aspects& a) {
   const auto bounds = [&](const Pieces& p) { return Json{{"at_least", p.at_least}, {"at_most", or_null(p.at_most)}}; };
   const auto number = [](const Pieces& p) { return p.exact() ? Json(p.at_least) : Json(); };
   Json json;
@@ -210,7 +210,8 @@ std::string to_json(const study::Question& question, const Aspects& a, bool comp
     json["euler_characteristic"] = or_null(a.cusps->euler_characteristic);
   }
   json["reason"] = !a.reason.empty() ? a.reason : a.aspects.reason;
-  json["complete"] = complete;
+  json["complete"] = a.stopped.empty();
+  json["stopped"] = or_null(a.stopped);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -12,14 +12,17 @@ DividedSpace divided_space(System system, const AspectsOptions& options, solve::
   const solve::Options search{
       .sigma = solve::kWhole, .threads = options.threads, .proof = options.certificate, .proof_of_parts = false};
   space.cover = std::make_shared<const Cover>(solve::solve(solve::prepare(space.system, search, control), control));
-  // A box that a limit has left is no sheet.
+  if (control.ended()) {  // a box that a limit has left is no sheet
+    space.reason = "the analysis was ended by a limit";
+    return space;
+  }
   if (!std::ranges::all_of(space.cover->boxes, is_sheet)) {
     space.reason = "C-space is not shown to be smooth in the search domain";
     return space;
   }
   space.system = with_single_values(std::move(space.system));
   if (!space.cover->complete() || !is_square_over(space.system, space.cover->dimension)) {
-    space.reason = control.ended() ? "the analysis was ended by a limit" : "C-space could not be covered";
+    space.reason = "C-space could not be covered";
     return space;
   }
   const std::vector<Limit> touched = limits(space.system, *space.cover);

@@ -128,7 +128,7 @@ Best best_center(const study::Question& question, const BallOptions& ball, const
   best.names = field.names(), best.region = field.region();
   best.precision = options.precision;
   Search(field, options, control, best).run();
-  if (const auto ending = control.ending()) best.stopped = to_string(*ending);
+  if (!best.complete) best.stopped = solve::stopped_by(control);
   best.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return best;
 }

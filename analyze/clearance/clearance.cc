@@ -173,7 +173,7 @@ Clearance clearance(const study::Question& question, const BallOptions& options,
     const Box point(found.unproven.begin(), found.unproven.end());
     for (const CoordinateValue& v : coordinate_values(of_part, point)) result.seemingly.emplace_back(v.name, v.value.mid());
   }
-  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
+  if (!result.nearest.complete) result.stopped = solve::stopped_by(control);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -63,6 +63,8 @@ Clearance clearance(const study::Question& question, const BallOptions& ball, co
 std::string rounded(double x, bool up);
 /// For a terminal: a line for each, with its middle.
 std::string value_lines(const std::vector<CoordinateValue>& values);
+/// "stopped by the time limit, in the stage search" as the last line of an analysis' table; empty where nothing did.
+std::string stopped_line(const std::string& stopped);
 /// "radius in [0.1, 0.2], 300 boxes": of a search that is under way.
 std::string progress_text(double lower, const std::optional<double>& upper, std::uint64_t count, const std::string& what);
 /// A few lines for a terminal.

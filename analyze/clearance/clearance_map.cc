@@ -7,15 +7,10 @@
 #include <chrono>
 
 #include "corank/analyze/clearance/json.h"
+#include "corank/core/box.h"
 #include "corank/core/rounding.h"
 
 namespace corank::analyze {
-
-Interval part_of(const Interval& side, int k, int n) {
-  const auto at = [&](int j) { return j == n ? side.hi() : side.lo() + (side.hi() - side.lo()) * j / n; };
-  return {at(k), at(k + 1)};
-}
-
 namespace {
 
 const char* word(MapCell::Robot robot) {
@@ -74,6 +69,7 @@ ClearanceMap clearance_map(const study::Question& question, const BallOptions& b
       if (options.progress) options.progress(map.cells.size(), all);
     }
   map.complete = map.empty || (map.cells.size() == all && !control.search_ended());
+  if (!map.complete) map.stopped = solve::stopped_by(control);
   map.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return map;
 }
@@ -105,6 +101,7 @@ std::string to_json(const ClearanceMap& map) {
   json["grid"] = map.grid;
   json["empty"] = map.empty;
   json["complete"] = map.complete;
+  json["stopped"] = or_null(map.stopped);
   json["precision"] = map.precision;
   json["best"] = map.best() ? row(*map.best()) : Json(nullptr);
   json["cells"] = Json::array();

@@ -28,6 +28,7 @@ struct ClearanceMap {
   std::vector<MapCell> cells;  ///< row by row, the second coordinate ascending; those that were examined
   bool empty = false;          ///< proven: no singularity at all in the ranges
   bool complete = false;       ///< every cell was examined
+  std::string stopped;         ///< what ended it early; empty: nothing
   double precision = 0.01, seconds = 0;
   std::uint64_t processed = 0;
 
@@ -41,17 +42,14 @@ struct MapOptions {
   std::function<void(std::size_t done, std::size_t all)> progress{};
 };
 
-/// The k-th of n equal parts of a side; neighbours share their end.
-Interval part_of(const Interval& side, int k, int n);
-
 /// `region`: two coordinates. Throws ModelError.
 ClearanceMap clearance_map(const study::Question& question, const BallOptions& ball, const std::vector<NamedRange>& region,
                            const MapOptions& options, const solve::Options& search, solve::Control& control);
 
 /// x, y, robot, lo, hi, cell_lo, cell_hi in each row, after a heading; empty: not known.
 std::string to_csv(const ClearanceMap& map);
-/// {"model", "set", "in", "region", "grid", "empty", "complete", "precision", "best", "cells": [rows of the table],
-/// "processed", "seconds"}.
+/// {"model", "set", "in", "region", "grid", "empty", "complete", "stopped", "precision", "best", "cells": [rows of the
+/// table], "processed", "seconds"}.
 std::string to_json(const ClearanceMap& map);
 
 }  // namespace corank::analyze

@@ -32,6 +32,8 @@ std::string progress_text(double lower, const std::optional<double>& upper, std:
   return fmt::format("{}, {} {}", radius, count, what);
 }
 
+std::string stopped_line(const std::string& stopped) { return stopped.empty() ? "" : "stopped by " + stopped + "\n"; }
+
 std::string value_lines(const std::vector<CoordinateValue>& values) {
   std::string text;
   for (const CoordinateValue& v : values) text += fmt::format("    {} = {:.9g}\n", v.name, v.value.mid());
@@ -123,7 +125,7 @@ std::string to_table(const Clearance& c) {
   }
   if (c.ball.question.set && c.center == Clearance::Center::unknown)
     text += "  it is neither proven nor excluded that the robot has a configuration at the centre\n";
-  return text + fmt::format("{} boxes processed, {:.3f} s\n", n.statistics.processed, c.seconds);
+  return text + fmt::format("{} boxes processed, {:.3f} s\n", n.statistics.processed, c.seconds) + stopped_line(c.stopped);
 }
 
 std::string to_json(const Clearance& c) {
@@ -176,7 +178,8 @@ std::string to_table(const Best& b) {
     if (!b.nearest.empty()) text += fmt::format("  {} nearest to this centre, proven to exist:\n", what);
     text += value_lines(b.nearest);
   }
-  return text + fmt::format("{} cells, {} boxes processed, {:.3f} s\n", b.cells, b.processed, b.seconds);
+  return text + fmt::format("{} cells, {} boxes processed, {:.3f} s\n", b.cells, b.processed, b.seconds) +
+         stopped_line(b.stopped);
 }
 
 std::string to_json(const Best& b) {

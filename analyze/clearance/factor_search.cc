@@ -151,7 +151,7 @@ std::string factor_lines(const FactorBounds& f, const std::string& what) {
 
 std::string last_lines(const FactorBounds& f, const std::string& effort) {
   return (f.reason.empty() ? "" : fmt::format("  no further: {}\n", f.reason)) +
-         fmt::format("{} steps, {}{:.3f} s\n", f.steps, effort, f.seconds);
+         fmt::format("{} steps, {}{:.3f} s\n", f.steps, effort, f.seconds) + stopped_line(f.stopped);
 }
 
 }  // namespace corank::analyze

@@ -22,6 +22,7 @@ struct FactorBounds {
   std::vector<CoordinateValue> tolerances;  ///< at the lower bound
   std::vector<CoordinateValue> robot;       ///< of the upper bound, its constants
   std::string reason;                       ///< why nothing more is known; empty where the bounds are as close as asked for
+  std::string stopped;                      ///< what ended the work early; empty: nothing
   double precision = 0.01;                  ///< that was asked for, relative
   int steps = 0;                            ///< factors that were tried
   double seconds = 0;

@@ -30,6 +30,7 @@ inline void add_bounds(const FactorBounds& f, Json& json) {
   json["tolerances"] = ends_of(f.tolerances);
   json["robot"] = ends_of(f.robot);
   json["complete"] = f.complete();
+  json["stopped"] = or_null(f.stopped);
   json["reason"] = or_null(f.reason);
   json["precision"] = f.precision;
   json["steps"] = f.steps;

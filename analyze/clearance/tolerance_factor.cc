@@ -27,6 +27,7 @@ class KeptRadius {
     if (keeps(found)) return;
     if (!falls_short(found)) {
       result_.reason = "of the robot as drawn: " + obstacle_of(found);
+      result_.stopped = found.stopped;
       return;
     }
     result_.upper = 0;
@@ -36,7 +37,10 @@ class KeptRadius {
   FactorStep try_at(const study::Question& scaled, double factor) {
     const Clearance found = clearance_of(scaled);
     if (keeps(found)) return {FactorStep::Kept::yes, factor};
-    if (!falls_short(found)) return {.obstacle = obstacle_of(found), .ends = true};
+    if (!falls_short(found)) {
+      result_.stopped = found.stopped;
+      return {.obstacle = obstacle_of(found), .ends = true};
+    }
     result_.nearest = found.values;
     return {FactorStep::Kept::no, factor, found.robot};
   }
@@ -89,6 +93,7 @@ ToleranceFactor tolerance_factor(const study::Question& question, const BallOpti
   const auto attempt = [&kept](const study::Question& scaled, double factor) { return kept.try_at(scaled, factor); };
   search_factor(question, attempt, options.progress, result);
   result.ball.question = question;
+  if (result.stopped.empty()) result.stopped = solve::stopped_by(control);
   return result;
 }
 

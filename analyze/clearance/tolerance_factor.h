@@ -30,8 +30,8 @@ ToleranceFactor tolerance_factor(const study::Question& question, const BallOpti
 
 std::string to_table(const ToleranceFactor& factor);
 /// {"model", "set", "at", "in", "keep": {"clearance"}, "factor": {"lo", "hi" (null: none is proven)}, "tolerances": {name:
-/// {"lo", "hi"}} at the lower factor, "robot", "nearest" (null, or as of a clearance), "complete", "reason", "precision",
-/// "steps", "processed", "seconds"}.
+/// {"lo", "hi"}} at the lower factor, "robot", "nearest" (null, or as of a clearance), "complete", "stopped", "reason",
+/// "precision", "steps", "processed", "seconds"}.
 std::string to_json(const ToleranceFactor& factor);
 
 }  // namespace corank::analyze

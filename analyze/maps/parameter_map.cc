@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "corank/analyze/aspects/aspects.h"
-#include "corank/analyze/clearance/clearance_map.h"
 #include "corank/analyze/sets/fold_system.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/certify/requirement.h"
@@ -385,6 +384,7 @@ ParameterMap parameter_map(const MapQuestion& question, const ParameterMapOption
   });
   ParameterMap map = mapper.assemble(std::move(tiles));
   map.critical = std::move(critical);
+  if (!map.complete) map.stopped = solve::stopped_by(control);
   map.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return map;
 }

@@ -91,6 +91,7 @@ struct ParameterMap {
   bool boundary_known = false;  ///< the boundary's boxes hold all points of undecided cells at which two solutions meet
   std::optional<CriticalPoints> critical;  ///< where they are asked for
   bool complete = false;
+  std::string stopped;  ///< what ended it early; empty: nothing
   std::uint64_t processed = 0;
   double seconds = 0;
   std::optional<MapClaims> claims;  ///< of the proven cells, where a certificate was asked for

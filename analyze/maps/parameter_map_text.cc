@@ -134,7 +134,7 @@ std::string to_table(const ParameterMap& map) {
     text += points_line((locus + "nodes").c_str(), points->nodes, points->nodes_known);
     if (!points->aspects.empty()) text += fmt::format("  {:<22}{}\n", "in all of C-space", points->aspects);
   }
-  return text;
+  return text + stopped_line(map.stopped);
 }
 
 std::string to_csv(const ParameterMap& map) {
@@ -163,6 +163,7 @@ std::string to_json(const ParameterMap& map) {
   for (const auto& [name, range] : map.tolerances) json["tolerances"][name] = {range.lo(), range.hi()};
   json["resolution"] = map.resolution;
   json["complete"] = map.complete;
+  json["stopped"] = or_null(map.stopped);
   json["shares"] = Json::object();
   for (const auto& [n, share] : map.shares()) json["shares"][std::to_string(n)] = share;
   json["proven_share"] = map.proven_share();

@@ -188,7 +188,7 @@ void PathFinder::Search::find_by_graph(const Ends& ends, Path& path, solve::Cont
       graph.block(failed, blocked);
     }
   }
-  path.reason = control.ended() ? "ended by " + to_string(*control.ending())
+  path.reason = control.ended() ? "stopped by " + solve::stopped_by(control)
                 : !graphs_.empty() && !graphs_.back().ready()
                     ? "no path was found, and a finer cover would have too many boxes"
                     : "no path was found, and no cover separates the ends";
@@ -202,7 +202,7 @@ void PathFinder::Search::find_by_sampling(const Ends& ends, const std::vector<do
     if (way && try_way(ends, *way, "sampling", path, control)) return;
     if (control.ended()) break;
   }
-  path.reason = control.ended() ? "ended by " + to_string(*control.ending()) : "no path was found by sampling";
+  path.reason = control.ended() ? "stopped by " + solve::stopped_by(control) : "no path was found by sampling";
 }
 
 Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& control) {
@@ -259,6 +259,7 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
       path.length += std::sqrt(squares);
     }
   }
+  if (path.status != Path::Status::separated) path.stopped = solve::stopped_by(control);
   path.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return path;
 }
@@ -289,7 +290,7 @@ std::vector<Box> PathFinder::ends(const std::vector<NamedValue>& values, solve::
     if (space.question().model.find_coordinate(v.name) < 0) fixed(space, {v});  // throws
   const solve::Prepared prepared = solve::prepare(system, {}, control);
   Cover cover = solve::solve(prepared, control);
-  if (!cover.complete()) throw EndError("the search for the configurations was ended by a limit");
+  if (!cover.complete()) throw EndError("the search for the configurations was stopped by " + solve::stopped_by(control));
   if (cover.dimension == 0) solve::prove_exactly(prepared, cover, control);
   std::vector<Box> result;
   certify::MeetingTest test(system);

@@ -44,6 +44,7 @@ struct Path {
   Box from, to;              ///< the ends, enclosed in the system's variables
   /// Where limits of requirements are avoided: do `from` and with it the whole path meet the requirements?
   std::optional<Standing> standing{};
+  std::string stopped;  ///< what ended the search early; empty: nothing
   double seconds = 0;
 };
 

@@ -14,8 +14,8 @@ FactorStep try_at(const study::Question& scaled, double factor, const result::Pa
                   PathFactor& result) {
   PathOfRobots robots(scaled, result.avoid, path);
   const std::string obstacle = robots.drawn(control);
-  const FactorStep ended{.obstacle = "the analysis was ended by a limit", .ends = true};
-  if (control.ended()) return ended;
+  const auto ended = [&] { return FactorStep{.obstacle = "stopped by " + solve::stopped_by(control), .ends = true}; };
+  if (control.ended()) return ended();
   if (!obstacle.empty()) return {.obstacle = obstacle, .ends = true};
   if (const auto failure = robots.failure(control)) {
     result.place = failure->place;
@@ -24,7 +24,7 @@ FactorStep try_at(const study::Question& scaled, double factor, const result::Pa
     return {FactorStep::Kept::no, std::min(factor, std::nextafter(factor * failure->share, HUGE_VAL)), failure->robot};
   }
   const bool follow = robots.all_follow(control);
-  if (control.ended()) return ended;
+  if (control.ended()) return ended();
   if (follow) return {FactorStep::Kept::yes, factor};
   return {.obstacle = "neither that every robot follows the path nor that one does not is proven"};
 }
@@ -41,6 +41,7 @@ PathFactor path_factor(const study::Question& question, const result::PathFile& 
     return try_at(scaled, factor, path, control, result);
   };
   search_factor(question, attempt, options.progress, result);
+  result.stopped = solve::stopped_by(control);
   return result;
 }
 

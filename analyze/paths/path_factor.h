@@ -27,8 +27,8 @@ PathFactor path_factor(const study::Question& question, const result::PathFile& 
 
 std::string to_table(const study::Question& question, const PathFactor& factor);
 /// {"model", "keep": {"path": "forward" …}, "factor": {"lo", "hi" (null: none is proven)}, "tolerances", "robot",
-/// "complete", "reason", "precision", "steps", "seconds", "place" (null, or as "nearest" of a clearance), "what" (null, or a
-/// sentence)}.
+/// "complete", "stopped", "reason", "precision", "steps", "seconds", "place" (null, or as "nearest" of a clearance), "what"
+/// (null, or a sentence)}.
 std::string to_json(const study::Question& question, const PathFactor& factor);
 
 }  // namespace corank::analyze

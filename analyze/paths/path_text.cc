@@ -82,7 +82,7 @@ std::string to_text(const PathFinder& finder, const Path& path) {
   } else if (path.resolution > 0) {
     line("resolution", fmt::format("{:g}", path.resolution));
   }
-  return text;
+  return text + stopped_line(path.stopped);
 }
 
 std::string to_json(const PathFinder& finder, const Path& path) {
@@ -98,6 +98,7 @@ std::string to_json(const PathFinder& finder, const Path& path) {
             {"length", nullptr},
             {"method", or_null(path.method)},
             {"reason", or_null(path.reason)},
+            {"stopped", or_null(path.stopped)},
             {"resolution", path.resolution > 0 ? Json(path.resolution) : Json()},
             {"seconds", path.seconds}};
   if (path.standing) {

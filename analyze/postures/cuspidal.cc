@@ -88,10 +88,11 @@ class CuspidalSearch {
       if (options_.progress) options_.progress(result_.poses, result_.same_sign);
       try_pose();
     }
-    result_.complete = result_.cuspidal || !control_.ended();
+    if (!result_.cuspidal) result_.stopped = solve::stopped_by(control_);
+    result_.complete = result_.stopped.empty();
     if (!result_.cuspidal)
-      result_.reason = control_.ended() ? "stopped by a limit"
-                       : compared_ == 0 ? "no pose was found at which there are two postures"
+      result_.reason = !result_.complete ? "stopped by " + result_.stopped
+                       : compared_ == 0  ? "no pose was found at which there are two postures"
                        : result_.same_sign == 0 && not_compared_ > 0
                            ? "no two postures of the same signs were found, but some were not compared"
                        : result_.same_sign == 0
@@ -310,6 +311,7 @@ std::string to_json(const Cuspidality& c, const std::string& model, const std::s
   json["same_sign"] = c.same_sign;
   json["reason"] = or_null(c.reason);
   json["complete"] = c.complete;
+  json["stopped"] = or_null(c.stopped);
   json["seconds"] = c.seconds;
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -39,6 +39,7 @@ struct Cuspidality {
   std::size_t same_sign = 0;  ///< pairs of postures that no sign tells apart
   std::string reason;         ///< why it is not, or why it is open
   bool complete = false;      ///< not ended by a limit
+  std::string stopped;        ///< what ended it, where it is not complete
   double seconds = 0;
 };
 
@@ -48,7 +49,7 @@ Cuspidality cuspidality(const study::Question& question, const CuspidalOptions& 
 std::string to_text(const Cuspidality& c, const std::string& model);
 /// {"model", "cuspidal": true, false or null, "of", "given": {name: value}, "quaternion" (null, or four numbers), "from",
 /// "to" (null, or {name: {"lo", "hi"}}), "radius", "certificate" (null, or `file`), "poses", "most_postures", "same_sign",
-/// "reason", "complete", "seconds"}.
+/// "reason", "complete", "stopped", "seconds"}.
 std::string to_json(const Cuspidality& c, const std::string& model, const std::string& file);
 
 }  // namespace corank::analyze

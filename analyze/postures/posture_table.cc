@@ -125,7 +125,10 @@ std::vector<Postures> find_all(const PostureFinder& finder, const std::vector<Po
     tbb::parallel_for(
         std::size_t{0}, rows.size(), std::size_t{1},
         [&](std::size_t i) {
-          if (control.ended()) return;
+          if (control.ended()) {
+            all[i].stopped = solve::stopped_by(control);
+            return;
+          }
           solve::Control own(control.rest(0, 0));
           all[i] = finder.find(rows[i].values, rows[i].orientation, own);
           const std::lock_guard lock(mutex);
@@ -134,6 +137,11 @@ std::vector<Postures> find_all(const PostureFinder& finder, const std::vector<Po
         tbb::simple_partitioner());
   });
   return all;
+}
+
+std::string stopped_by(const std::vector<Postures>& postures) {
+  const auto at = std::ranges::find_if(postures, [](const Postures& p) { return !p.stopped.empty(); });
+  return at == postures.end() ? "" : at->stopped;
 }
 
 Comparison compare(const PostureFinder& finder, const std::vector<Postures>& proven, const Table& others,

@@ -31,8 +31,8 @@ struct PoseRow {
 PostureQuestion question_of(const Table& poses, const study::Question& question, const std::string& orientation_of);
 std::vector<PoseRow> rows_of(const Table& poses, const std::string& file);
 
-/// Of each row. Once the control has ended, rows are left without an answer: not complete, nothing found. The answers do
-/// not depend on the number of threads.
+/// Of each row. Once the control has ended, rows are left without an answer: not complete, nothing found, but what stopped
+/// it. The answers do not depend on the number of threads.
 std::vector<Postures> find_all(const PostureFinder& finder, const std::vector<PoseRow>& rows, int threads,
                                solve::Control& control,
                                const std::function<void(std::size_t done, std::size_t all)>& progress = {});
@@ -58,6 +58,8 @@ std::string to_csv(const PostureFinder& finder, const std::vector<Postures>& pos
 /// {"model", "given", "poses": [{"postures", "proven", "at_least", "at_most", "families", "complete", …}]}, and with a
 /// comparison "against": {"agreed", "missing", "wrong", "open"}, each of the last three a list of {"pose", "values"}.
 std::string to_json(const PostureFinder& finder, const std::vector<Postures>& postures, const Comparison* comparison);
+/// What ended the search of the first row that was ended early; empty where none was.
+std::string stopped_by(const std::vector<Postures>& postures);
 /// How many poses have how many postures; the comparison, where there is one.
 std::string to_table(const PostureFinder& finder, const std::vector<Postures>& postures, const Comparison* comparison);
 

@@ -390,7 +390,7 @@ Postures PostureFinder::find(const std::vector<Expression>& values, const std::o
   result.processed = cover.statistics.processed;
   result.complete = cover.complete();
   p.take(prepared, cover, control, result);
-  if (const auto ending = control.ending()) result.stopped = to_string(*ending);
+  if (!result.complete) result.stopped = solve::stopped_by(control);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

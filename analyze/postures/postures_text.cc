@@ -155,6 +155,7 @@ std::string to_table(const PostureFinder& finder, const std::vector<Postures>& p
     text += fmt::format("  {:>2} {:<9} {}, proven to be all\n", count, result::noun(count, "posture"),
                         result::counted(poses, "pose"));
   if (open > 0) text += fmt::format("  not known    {}: bounds only, or sets of postures\n", result::counted(open, "pose"));
+  text += stopped_line(stopped_by(postures));
   if (!comparison) return text;
   text += "compared with the others:\n";
   text += fmt::format("  {:<9}{}\n", "agreed", comparison->agreed);

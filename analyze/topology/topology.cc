@@ -316,8 +316,11 @@ Topology topology(study::Question question, const TopologyOptions& options, solv
   question.set = question.model.is_plain_system() ? std::nullopt : std::optional(symbolic::SingularitySet::cspace);
   question.corank = 1;
   question.tolerance = 0;
-  return question.model.toleranced().empty() ? topology_of_one(question, study::system(question), options, control)
-                                             : of_robots(std::move(question), options, control);
+  Topology result = question.model.toleranced().empty()
+                        ? topology_of_one(question, study::system(question), options, control)
+                        : of_robots(std::move(question), options, control);
+  result.stopped = solve::stopped_by(control);
+  return result;
 }
 
 }  // namespace corank::analyze

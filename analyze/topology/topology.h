@@ -60,6 +60,7 @@ struct Topology {
   std::shared_ptr<const Shape> certificate;
   /// Where constants have tolerances: are the numbers those of every robot? All else is of the one that was drawn.
   std::optional<Robots> robots;
+  std::string stopped;  ///< what ended the analysis early; empty: nothing
 };
 
 struct TopologyOptions {
@@ -85,6 +86,6 @@ result::ShapeFile to_file(const study::Question& question, const Topology& topol
 /// A few lines for a terminal.
 std::string to_text(const study::Question& question, const Topology& topology);
 /// {"components": {"at_least", "at_most"}, "euler_characteristic", "genus", "critical_points" …}; doc/topology.md.
-std::string to_json(const study::Question& question, const Topology& topology, bool complete);
+std::string to_json(const study::Question& question, const Topology& topology);
 
 }  // namespace corank::analyze

@@ -84,10 +84,10 @@ std::string to_text(const study::Question& question, const Topology& t) {
     if (t.with_ends) text.insert(text.size() - 1, fmt::format("; {} more on the ends do not count", h.uncounted));
   }
   if (!t.reason.empty()) text += fmt::format("  not known             {}\n", t.reason);
-  return text;
+  return text + stopped_line(t.stopped);
 }
 
-std::string to_json(const study::Question& question, const Topology& t, bool complete) {
+std::string to_json(const study::Question& question, const Topology& t) {
   Json json{{"model", question.model.name()},
             {"dimension", t.dimension},
             {"components", {{"at_least", t.components.at_least}, {"at_most", or_null(t.components.at_most)}}},
@@ -104,7 +104,8 @@ std::string to_json(const study::Question& question, const Topology& t, bool com
   if (t.robots) json["robots"] = robots_json(*t.robots);
   json["reason"] = t.reason.empty() ? t.components.reason : t.reason;
   json["processed"] = t.processed;
-  json["complete"] = complete;
+  json["complete"] = t.stopped.empty();
+  json["stopped"] = or_null(t.stopped);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -40,12 +40,14 @@ class Analysis:
     Attributes:
         data: the JSON object that the command's --json prints, as Python's own values.
         complete: False if a limit or Ctrl-C ended the analysis; what it says is proven nevertheless.
+        stopped: what ended it early, such as "the time limit, in the stage search"; None if nothing did.
     """
 
     def __init__(self, text: str, table: str) -> None:
         self.data: Dict[str, Any] = json.loads(text)
         self._table = table
         self.complete: bool = self.data["complete"]
+        self.stopped: Optional[str] = self.data["stopped"]
 
     def __str__(self) -> str:
         return in_python(self._table)

@@ -53,7 +53,6 @@ class ParameterMap(Analysis, Certified):
         self.resolution: int = self.data["resolution"]
         self.shares = {int(n): share for n, share in self.data["shares"].items()}
         self.proven_share: float = self.data["proven_share"]
-        self.complete: bool = self.data["complete"]
         self.require: List[str] = self.data.get("require", [])
         self.tolerances: Dict[str, Tuple[float, float]] = {n: (lo, hi) for n, (lo, hi) in self.data["tolerances"].items()}
         self.standings: Dict[str, float] = self.data.get("standings", {})

@@ -40,6 +40,7 @@ class Path(Certified):
         length: the length of the polyline through the waypoints, with angles in radians and lengths in units of their
             typical size.
         reason: what separates the ends, or why nothing is known.
+        stopped: what ended the search early, such as "the time limit, in the stage search"; None if nothing did.
         data: the JSON object that the command's --json prints.
     """
 
@@ -64,6 +65,7 @@ class Path(Certified):
         self.radii: List[float] = self.data.get("radii") or []
         self.length: Optional[float] = self.data["length"]
         self.reason: Optional[str] = self.data["reason"]
+        self.stopped: Optional[str] = self.data["stopped"]
         self._missing = f"there is no path: {self.reason or self.status}"
 
     def __bool__(self) -> bool:

@@ -58,7 +58,7 @@ std::vector<std::string> misplaced_decimals(const Result& result) {
 System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
   if (result.part.empty()) return symbolic::configurations(mechanism);
   for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, set))
-    if (text(part) == result.part)
+    if (is_named(part, result.part))
       return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
   throw ResultFileError("the result's model has no part '" + result.part + "'");
 }
@@ -89,13 +89,6 @@ void add(const Report& part, const std::string& name, bool first, Report& sum) {
   sum.proof.leaves += part.proof.leaves;
   sum.proof.searched += part.proof.searched;
   add_failures(part, "part: " + name, sum);
-}
-
-bool same_boxes(const std::vector<CoverBox>& a, const std::vector<CoverBox>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const CoverBox& x, const CoverBox& y) {
-    return x.box == y.box && x.verdict == y.verdict && x.passage == y.passage && x.side == y.side && x.part == y.part &&
-           x.free == y.free && x.reason == y.reason;
-  });
 }
 
 // Compares what a result says of its system with the system that its model gives: names, kinds, domains, angles, sizes, the
@@ -140,7 +133,7 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
   if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
   const std::vector<symbolic::SetPart> expected = symbolic::set_parts(model, *set);
   const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(),
-                              [](const symbolic::SetPart& a, const Result& b) { return text(a) == b.part; });
+                              [](const symbolic::SetPart& a, const Result& b) { return is_named(a, b.part); });
   if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
   std::vector<std::string> list;
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -154,11 +147,7 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
       if (std::ranges::find(free, name) == free.end())
         list.push_back(fmt::format("(part: {}) {} is not free", part.part, name));
   }
-  Result merged = result;
-  merge_parts(merged);
-  if (!same_boxes(merged.cover.boxes, result.cover.boxes) || !same_boxes(merged.cover.points, result.cover.points) ||
-      merged.cover.dimension != result.cover.dimension || merged.outputs != result.outputs)
-    list.emplace_back("the whole is not made of its parts");
+  if (!is_made_of_parts(result)) list.emplace_back("the whole is not made of its parts");
   return list;
 }
 

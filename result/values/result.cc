@@ -1,6 +1,7 @@
 #include "corank/result/values/result.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "corank/core/check.h"
 #include "corank/symbolic/model/model_file.h"
@@ -18,8 +19,11 @@ std::vector<int> places(const Result& whole, const Result& part) {
   return list;
 }
 
-// Its configuration alone: what is proven of it stays with the part. What that leaves out may be all that it can.
-CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part) {
+bool leaves_out(const std::vector<int>& places) { return std::ranges::find(places, -1) != places.end(); }
+
+// Its configuration alone: what is proven of it stays with the part, but for the exact point, whose index in the whole is so
+// much larger. What that leaves out may be all that it can.
+CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part, int points_before) {
   CoverBox result;
   result.box.reserve(places.size());
   for (std::size_t v = 0; v < places.size(); ++v) {
@@ -29,13 +33,26 @@ CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Res
   }
   // Over all values of what is left out, a point is a smooth piece.
   const bool is_point = box.verdict == Verdict::isolated || box.verdict == Verdict::exact;
-  const bool leaves_out = std::ranges::find(places, -1) != places.end();
-  result.verdict = is_point && leaves_out ? Verdict::regular : box.verdict;
+  result.verdict = is_point && leaves_out(places) ? Verdict::regular : box.verdict;
+  if (box.point >= 0 && !leaves_out(places)) result.point = points_before + box.point;
   result.reason = box.reason;
   result.passage = box.passage;
   result.side = box.side;
   result.part = part;
   return result;
+}
+
+ExactPoint of_whole(const ExactPoint& point, const std::vector<int>& places) {
+  ExactPoint result{point.polynomial, point.lower, point.upper, {}};
+  for (const int own : places) result.coordinates.push_back(point.coordinates.at(own));
+  return result;
+}
+
+bool same_boxes(const std::vector<CoverBox>& merged, const std::vector<CoverBox>& stored) {
+  return std::ranges::equal(merged, stored, [](const CoverBox& x, const CoverBox& y) {
+    return x.box == y.box && x.verdict == y.verdict && x.passage == y.passage && x.side == y.side && x.part == y.part &&
+           x.free == y.free && x.reason == y.reason && (x.point == y.point || y.point < 0);
+  });
 }
 
 }  // namespace
@@ -98,8 +115,11 @@ void merge_parts(Result& whole) {
   for (std::size_t i = 0; i < whole.parts.size(); ++i) {
     const Result& part = whole.parts[i];
     const std::vector<int> from = places(whole, part);
-    for (const CoverBox& box : part.cover.boxes) cover.boxes.push_back(of_whole(box, from, whole, static_cast<int>(i)));
-    for (const CoverBox& box : part.cover.points) cover.points.push_back(of_whole(box, from, whole, static_cast<int>(i)));
+    const int before = static_cast<int>(cover.exact_points.size());
+    for (const auto& [own, all] : {std::pair(&part.cover.boxes, &cover.boxes), {&part.cover.points, &cover.points}})
+      for (const CoverBox& box : *own) all->push_back(of_whole(box, from, whole, static_cast<int>(i), before));
+    if (!leaves_out(from))
+      for (const ExactPoint& point : part.cover.exact_points) cover.exact_points.push_back(of_whole(point, from));
     if (is_searched(part) || !some_searched) {
       cover.dimension = std::max(cover.dimension, dimension_of(part));
       cover.sigma.length = std::max(cover.sigma.length, part.cover.sigma.length);
@@ -126,6 +146,15 @@ void merge_parts(Result& whole) {
   whole.options.sigma = cover.sigma;
   whole.outputs = whole.parts.front().outputs;
   whole.cover = std::move(cover);
+}
+
+bool is_made_of_parts(const Result& whole) {
+  Result merged = whole;
+  merge_parts(merged);
+  const Cover &made = merged.cover, &stored = whole.cover;
+  return same_boxes(made.boxes, stored.boxes) && same_boxes(made.points, stored.points) &&
+         (stored.exact_points.empty() || made.exact_points == stored.exact_points) && made.dimension == stored.dimension &&
+         merged.outputs == whole.outputs;
 }
 
 }  // namespace corank::result

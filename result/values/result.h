@@ -137,6 +137,8 @@ int dimension_of(const Result& result);
 
 /// Fills in what the whole has of its parts, at least one: variables, angles, sizes, boxes and points, statistics.
 void merge_parts(Result& whole);
+/// Is that what the whole has? Older programs have left exact points to the parts.
+bool is_made_of_parts(const Result& whole);
 
 /// Puts the constants into a model. Throws symbolic::ModelError where an expression does not parse or the model has no such
 /// constant.

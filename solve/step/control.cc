@@ -95,6 +95,12 @@ bool Control::count_box() {
   return false;
 }
 
+std::string stopped_by(const Control& control) {
+  static_cast<void>(control.ended());  // a part with a control of its own may have seen the time limit first
+  const auto ending = control.ending();
+  return ending ? to_string(*ending) : "";
+}
+
 void Control::report(std::uint64_t done, std::uint64_t all) const {
   if (progress) progress({stage_, done, all});
 }

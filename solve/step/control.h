@@ -131,6 +131,9 @@ class Control {
   std::atomic<std::int64_t> kept_{0};
 };
 
+/// What has ended the run by now: "the time limit, in the stage search"; empty where nothing did.
+std::string stopped_by(const Control& control);
+
 /// For its life the control is in the stage. Stages within a stage keep its name: a search in the exact stage is the exact
 /// stage.
 class InStage {

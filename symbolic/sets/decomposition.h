@@ -31,6 +31,7 @@ struct Component {
   std::vector<std::string> joints{};       ///< of such a part: the coordinates that give all others (free_coordinates.h)
   std::optional<DoubleStratum> stratum{};  ///< where the condition vanishes doubly; the part is this, or
   bool is_rest = false;                    ///< what else the condition says
+  std::string former_name{};               ///< before rounded numbers were put into the name (part_names.h)
 
   /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.
   std::string relation() const {

@@ -6,6 +6,7 @@
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/free_fold.h"
 #include "corank/symbolic/sets/kernel_scale.h"
+#include "corank/symbolic/sets/part_names.h"
 
 namespace corank::symbolic {
 
@@ -13,6 +14,11 @@ std::string text(const SetPart& part) {
   if (const auto* component = std::get_if<Component>(&part)) return component->name;
   if (const auto* requirement = std::get_if<RequirementPart>(&part)) return requirement->name;
   return std::get<BoundaryPart>(part).text();
+}
+
+bool is_named(const SetPart& part, const std::string& name) {
+  const auto* component = std::get_if<Component>(&part);
+  return text(part) == name || (component && !name.empty() && component->former_name == name);
 }
 
 std::vector<std::string> joints(const SetPart& part) {
@@ -75,8 +81,10 @@ std::vector<Component> components(const Mechanism& mechanism, SingularitySet set
   std::vector<Component> parts = decompose(mechanism, kernel_question(mechanism, set), ended);
   const std::optional<FreeCoordinates> free = known != nullptr ? *known : free_coordinates(mechanism);
   std::vector<Component> in_joints = parts;
-  if (free && is_large(*free) && leave_out_coordinates(*free, in_joints)) return in_joints;
-  return simplified(mechanism, std::move(parts), ended);
+  const bool leaves_out = free && is_large(*free) && leave_out_coordinates(*free, in_joints);
+  parts = leaves_out ? std::move(in_joints) : simplified(mechanism, std::move(parts), ended);
+  name_by_values(mechanism, parts);
+  return parts;
 }
 
 }  // namespace

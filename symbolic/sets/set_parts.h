@@ -21,6 +21,8 @@ using SetPart = std::variant<BoundaryPart, Component, RequirementPart>;
 
 /// "theta2 at its upper limit"; "phi_rod1 = theta1". No two parts of a set have the same.
 std::string text(const SetPart& part);
+/// Is that its name, or the one that older programs gave it?
+bool is_named(const SetPart& part, const std::string& name);
 /// Of a part in fewer coordinates those that give all others (Component::joints); else none.
 std::vector<std::string> joints(const SetPart& part);
 

@@ -163,7 +163,7 @@ TEST(AspectCusps, OfPlantedMapsAreKnownAndNoneIsFalse) {
       EXPECT_EQ(found.cusps->looked_for, (std::array{false, false}));
       EXPECT_NE(to_text({.model = m}, found).find("cusps           not searched for; the aspects are not exact"),
                 std::string::npos);
-      const auto json = nlohmann::json::parse(to_json({.model = m}, found, true));
+      const auto json = nlohmann::json::parse(to_json({.model = m}, found));
       EXPECT_TRUE(json["cusps"].is_null());
       EXPECT_EQ(json["cusps_of"].size(), 0u);
       ++bounded;
@@ -224,7 +224,7 @@ TEST(AspectCusps, OfA3RprSliceAreInTheAspectOfTwoOfTheThreeModesNearbyAndHaveThe
   EXPECT_EQ(torus.cusps->euler_characteristic, 0);
   EXPECT_NE(to_text({.model = m}, torus).find("the number of forward ones has the parity of the Euler characteristic 0"),
             std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(to_json({.model = m}, torus, true))["euler_characteristic"], 0);
+  EXPECT_EQ(nlohmann::json::parse(to_json({.model = m}, torus))["euler_characteristic"], 0);
 }
 
 // A shortest length of the second leg cuts the torus, one cusp is cut off with a part of it, and nothing is said of the
@@ -263,7 +263,7 @@ TEST(AspectCusps, ThatNobodyAskedForAreNull) {
   solve::Control control;
   study::Question slider{.model = study::read_model(CORANK_SOURCE_DIR "/models/three_slider.cuik").mechanism};
   const Aspects a = aspects(slider, {}, control);
-  EXPECT_TRUE(nlohmann::json::parse(to_json(slider, a, true))["cusps"].is_null());
+  EXPECT_TRUE(nlohmann::json::parse(to_json(slider, a))["cusps"].is_null());
   EXPECT_EQ(to_text(slider, a).find("cusps"), std::string::npos);
 }
 

@@ -37,6 +37,11 @@ TEST(PostureTable, ComparesSomebodyElsesSolutions) {
   ASSERT_EQ(found.size(), 3u);
   const std::string csv = to_csv(finder, found);
   EXPECT_EQ(csv, to_csv(finder, find_all(finder, rows, 1, control)));
+  solve::Control late({.time = 1, .clock = [now = 0.0]() mutable { return now += 1; }});
+  const std::vector<Postures> none = find_all(finder, rows, 2, late);
+  EXPECT_EQ(stopped_by(none), "the time limit, in the stage model");
+  EXPECT_THAT(to_table(finder, none, nullptr), testing::EndsWith("\nstopped by the time limit, in the stage model\n"));
+  EXPECT_EQ(stopped_by(found), "");
   std::size_t all = 0;
   for (const Postures& p : found) all += p.found.size();
   const std::string with_none = csv + "3,0,0,,,,,,,\n";  // as of a pose without postures

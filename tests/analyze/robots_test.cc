@@ -191,7 +191,7 @@ TEST(AllRobots, ThatDifferAreNamed) {
   ASSERT_EQ(other.robots->other.size(), 1u);
   EXPECT_EQ(other.robots->other[0].value.mid(), -0.5);
   EXPECT_EQ(other.robots->other_numbers.front(), std::pair(std::string("components"), 0));
-  const auto json = nlohmann::json::parse(to_json(circle("1 ± 1.5"), other, true));
+  const auto json = nlohmann::json::parse(to_json(circle("1 ± 1.5"), other));
   EXPECT_EQ(json["robots"]["other"]["components"], 0);
   EXPECT_EQ(json["robots"]["every"], false);
   EXPECT_THAT(robots_text(*other.robots), HasSubstr("another robot"));

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "corank/result/files/result_file.h"
@@ -95,6 +97,76 @@ TEST(SetPartsOnTheCommandLine, OfALargeSetLeaveOutCoordinates) {
   EXPECT_THAT(read_text(folder.file("page.html/figures/output-portrait.svg")),
               AllOf(HasSubstr("θ"), Not(HasSubstr("hand"))));
   EXPECT_THAT(read_text(folder.file("page.html/index.html")), HasSubstr("\"leftOut\":[0,1,"));
+}
+
+TEST(SetPartsOnTheCommandLine, SayTheirExactPointsAsOtherSetsDo) {
+  const TemporaryFolder folder;
+  const Words solve{"solve",  model("three_slider"), "--set",   "forward", "-D", "L2=1", "-o", folder.file("r.h5"),
+                    "--json", folder.file("r.json"), "--kernel"};
+  const auto points_by = [&](const std::string& kernel) {
+    Words words = solve;
+    words.push_back(kernel);
+    const Outcome outcome = run_corank(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, Not(HasSubstr("[")));
+    std::multiset<std::string> points;
+    for (const json& point : json::parse(read_text(folder.file("r.json")))["points"]) {
+      json exact = json::object();
+      for (const char* name : {"y_A", "y_B", "x_C"}) exact[name] = point["exact"][name];
+      points.insert(exact.dump());
+    }
+    return points;
+  };
+  EXPECT_EQ(points_by("none"), points_by("right"));
+  points_by("none");
+  const auto verified = [&](const std::function<void(Cover&)>& change) {
+    result::Result result = result::read_result(folder.file("r.h5"));
+    EXPECT_EQ(result.parts.size(), 2u);
+    EXPECT_EQ(result.cover.exact_points.size(), 6u);
+    change(result.cover);
+    result::write_result(folder.file("changed.h5"), result);
+    return run_corank({"verify", folder.file("changed.h5")});
+  };
+  EXPECT_EQ(verified([](Cover&) {}).status, 4);  // there is no proof of completeness
+  const Outcome other = verified([](Cover& cover) { std::swap(cover.points[0].point, cover.points[1].point); });
+  EXPECT_THAT(other.out, HasSubstr("the whole is not made of its parts"));
+  EXPECT_EQ(other.status, 1);
+  EXPECT_EQ(verified([](Cover& cover) { std::swap(cover.exact_points[0], cover.exact_points[1]); }).status, 1);
+  const Outcome old = verified([](Cover& cover) {  // as an older program has left it
+    cover.exact_points.clear();
+    for (auto* boxes : {&cover.boxes, &cover.points})
+      for (CoverBox& box : *boxes) box.point = -1;
+  });
+  EXPECT_EQ(old.status, 4) << old.out;
+}
+
+// The rails' directions are (-1/2, ±h) in the file; without a name for √3/2 corank gives it one.
+TEST(SetPartsOnTheCommandLine, HaveNoNamesWithConstantsThatNobodyWrote) {
+  const TemporaryFolder folder;
+  std::string text = read_text(model("planar/3prr"));
+  const auto replace = [&text](const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+  };
+  replace("(-1/2, h, 0)", "(-1/2, sqrt(3)/2, 0)");
+  replace("(-1/2, -h, 0)", "(-1/2, -sqrt(3)/2, 0)");
+  folder.write("rails.cuik", text);
+  const Outcome asked = run_corank({"solve", folder.file("rails.cuik"), "--set", "inverse", "--sigma", "inf", "--json",
+                                    folder.file("r.json"), "-o", folder.file("r.h5")});
+  EXPECT_EQ(asked.status, 0) << asked.err;
+  EXPECT_THAT(asked.out, AllOf(HasSubstr("\n  1.73205*sin(psi2) - cos(psi2) = 0  "),
+                               HasSubstr("\n  1.73205*sin(psi3) + cos(psi3) = 0  "), HasSubstr("\n  cos(psi1) = 0  ")));
+  EXPECT_EQ(json::parse(read_text(folder.file("r.json")))["parts"][0]["condition"], "2*k1*sin(psi2) - cos(psi2) = 0");
+  EXPECT_THAT(run_corank({"derive", folder.file("rails.cuik"), "--set", "inverse"}).out,
+              HasSubstr("Constants that corank has named:\n  k1 = 0.5*sqrt(3)\n"));
+  EXPECT_EQ(run_corank({"verify", folder.file("r.h5")}).status, 4);
+  result::Result result = result::read_result(folder.file("r.h5"));
+  result.parts[0].part = "2*k1*sin(psi2) - cos(psi2) = 0";  // as an older program called it
+  result::write_result(folder.file("r.h5"), result);
+  EXPECT_EQ(run_corank({"verify", folder.file("r.h5")}).status, 4);
+  result.parts[0].part = "1.73206*sin(psi2) - cos(psi2) = 0";
+  result::write_result(folder.file("r.h5"), result);
+  EXPECT_EQ(run_corank({"verify", folder.file("r.h5")}).status, 1);
 }
 
 TEST(SetPartsOnTheCommandLine, AreLeftTogetherWhereAKernelIsAskedFor) {

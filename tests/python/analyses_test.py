@@ -14,6 +14,18 @@ def test_the_c_space_of_the_three_slider_is_two_closed_curves(three_slider):
     assert "2 closed curves" in str(t) and t.complete
 
 
+def test_an_analysis_says_which_limit_ended_it(three_slider, dextar):
+    assert three_slider.topology().stopped is None
+    for ended in (
+        dextar.topology(time_limit=1e-9),
+        dextar.aspects(time_limit=1e-9),
+        dextar.map({"theta2": (1, 2), "theta5": (1, 2)}, time_limit=1e-9),
+        dextar.postures({"theta2": 1, "theta5": 1}, time_limit=1e-9),
+    ):
+        assert ended.stopped.startswith("the time limit, in the stage ") and not ended.complete
+        assert f"stopped by {ended.stopped}" in str(ended)
+
+
 def test_its_singularities_divide_it_into_eight_aspects(three_slider):
     a = three_slider.aspects()
     assert a.aspects == (8, 8) and a.working_modes == (4, 4) and len(a.representatives) == 8

@@ -39,6 +39,14 @@ TEST(Control, EndsAtItsTimeAndStaysEnded) {
   EXPECT_EQ(to_string(*control.ending()), "the time limit, in the stage exact points");
 }
 
+TEST(Control, SaysWhatHasStoppedItAlsoWhereNobodyHasAsked) {
+  double now = 100;
+  const Control control({.time = 5, .clock = [&now] { return now; }});
+  EXPECT_EQ(stopped_by(control), "");
+  now = 105;
+  EXPECT_EQ(stopped_by(control), "the time limit, in the stage model");
+}
+
 TEST(Control, EndsWhereAnotherThreadSaysSo) {
   std::atomic<bool> stop{false};
   const Control control({.stop = &stop});
