@@ -28,6 +28,7 @@ struct Component {
   std::optional<ExpressionMatrix> block{};  ///< with a kernel vector: more than three rows whose determinant is no product
   /// In place of Φ(q) = 0, where some coordinates are left out (set_parts.h).
   std::shared_ptr<const TrigonometricSystem> factor{};
+  bool condition_in_factor = false;        ///< whose equations say it
   std::vector<std::string> joints{};       ///< of such a part: the coordinates that give all others (free_coordinates.h)
   std::optional<DoubleStratum> stratum{};  ///< where the condition vanishes doubly; the part is this, or
   bool is_rest = false;                    ///< what else the condition says

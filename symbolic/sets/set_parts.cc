@@ -62,7 +62,13 @@ std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Compon
         part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
         part.joints = {part.dependent_angle->other};
       }
-    if (part.condition) part.stratum = double_stratum(mechanism, *part.condition, ended);
+    if (auto turn = part.condition ? without_free_turn(mechanism, *part.condition) : std::nullopt) {
+      part.factor = std::make_shared<const TrigonometricSystem>(std::move(turn->system));
+      part.joints = {std::move(turn->angle)};
+      part.condition_in_factor = true;
+    } else if (part.condition) {
+      part.stratum = double_stratum(mechanism, *part.condition, ended);
+    }
     if (part.stratum) {
       Component on = part;
       on.name = part.stratum->text();
@@ -159,7 +165,8 @@ void SetEquations::add_condition(const Component& part, TrigonometricSystem& sys
   };
   if (part.dependent_angle && has(part.dependent_angle->angle)) system.dependent_angle = part.dependent_angle;
   if (system.dependent_angle) system.equations.push_back({part.dependent_angle->relation(), part.name, where, true, true});
-  if (part.condition) system.equations.push_back({*part.condition == Expression(0), part.name, where, true});
+  if (part.condition && !part.condition_in_factor)
+    system.equations.push_back({*part.condition == Expression(0), part.name, where, true});
 }
 
 System SetEquations::compiled(const std::vector<std::string>& scales) const {
