@@ -9,11 +9,13 @@
 #include <sstream>
 
 #include "corank/result/values/result.h"
+#include "corank/symbolic/model/set_definition.h"
 #include "corank/tests/app/program.h"
 
 namespace corank::app {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -53,6 +55,15 @@ TEST(Help, OfTheProgramAndOfEverySubcommandHasAnExampleAndNoLineOver100Columns) 
 TEST(Help, OfEverySubcommandIsDescribedInTheDocumentation) {
   const std::string page = read_text(CORANK_SOURCE_DIR "/doc/command_line.md");
   for (const std::string& name : names_in_help()) EXPECT_THAT(page, HasSubstr("\n| `" + name + "` | "));
+}
+
+TEST(Help, OfEverySetIsDescribedInTheDocumentation) {
+  const std::string page = read_text(CORANK_SOURCE_DIR "/doc/command_line.md");
+  const std::size_t begin = page.find("\n## Sets\n"), end = page.find("\n## ", begin + 1);
+  ASSERT_LT(end, page.size());
+  for (const symbolic::SetDefinition& set : symbolic::set_definitions())
+    EXPECT_THAT(page.substr(begin, end - begin),
+                ContainsRegex("\n\\| `([a-z-]+`, `)*" + std::string(set.name) + "`[^|]* \\| "));
 }
 
 TEST(Help, OfSolveNamesEveryOption) {
