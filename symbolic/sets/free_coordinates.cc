@@ -19,6 +19,11 @@ bool is_in_range(const Mechanism& mechanism, const Coordinate& c, const Interval
   return lower.hi() < value.lo() && value.hi() < upper.lo();
 }
 
+// Its ends may be two constants with the same value.
+bool has_one_value(const Mechanism& mechanism, const Coordinate& c) {
+  return c.has_range && (exact_value(mechanism, c.upper, c.name) - exact_value(mechanism, c.lower, c.name)).is_zero();
+}
+
 bool has_given(const FreeCoordinates& free, const std::vector<Expression>& functions) {
   return std::ranges::any_of(functions, [&](const Expression& e) {
     return std::ranges::any_of(free.given, [&](const Relation& r) { return e.mentions(r.lhs.name()); });
@@ -68,6 +73,8 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
   std::map<std::string, Expression> values;
   for (const Relation& r : result.given) values.emplace(r.lhs.name(), r.rhs.substituted(values));
   std::erase_if(system.coordinates, [&](const Coordinate& c) { return values.contains(c.name); });
+  for (Coordinate& c : system.coordinates)
+    if (has_one_value(mechanism, c)) c.upper = c.lower;  // is_fixed() looks no closer
   for (auto& inequality : system.inequalities) {
     inequality.relation = inequality.relation.substituted(values);
     if (mentioned(system.coordinates, inequality.relation.lhs - inequality.relation.rhs).empty()) return std::nullopt;
@@ -93,7 +100,7 @@ std::optional<FreeCoordinates> free_coordinates(const Mechanism& mechanism) {
     const std::string& name = r.lhs.name();
     const int index = mechanism.find_coordinate(name);
     const Coordinate& c = mechanism.coordinates()[index];
-    if (is_fixed(c)) return std::nullopt;
+    if (has_one_value(mechanism, c)) return std::nullopt;
     const bool is_limited = std::ranges::find(mechanism.limits(), name, &Limit::coordinate) != mechanism.limits().end();
     const Expression& value = values.at(name);
     if (!is_limited) {

@@ -11,20 +11,19 @@
 namespace corank::symbolic {
 namespace {
 
-// Does its range say nothing?
+// Does its range say nothing? One of one value has no circle, a smaller one a chord.
 bool is_full(const System& system, const std::string& angle) {
-  const auto a = std::ranges::find(system.angles, angle, &Angle::name);
-  const bool has_chord =
-      std::ranges::any_of(system.inequalities, [&](const Polynomial& f) { return f.source == "range of " + angle; });
-  return a != system.angles.end() && !has_chord;
+  const auto is_named = [&](const char* what) {
+    return [name = what + angle](const Polynomial& f) { return f.source == name; };
+  };
+  return std::ranges::any_of(system.equations, is_named("circle of ")) &&
+         std::ranges::none_of(system.inequalities, is_named("range of "));
 }
 
 }  // namespace
 
 std::optional<TrigonometricSystem> without_free_fold(const Mechanism& mechanism, const DependentAngle& angle) {
   TrigonometricSystem system = plain_system(mechanism);
-  for (const Coordinate& c : system.coordinates)
-    if ((c.name == angle.angle || c.name == angle.other) && is_fixed(c)) return std::nullopt;
   const System compiled = algebrize(system);
   if (!is_full(compiled, angle.angle) || !is_full(compiled, angle.other)) return std::nullopt;
   const GinacLock lock;
@@ -76,7 +75,7 @@ std::optional<Turning> turning_in(const GiNaC::ex& e, const GiNaC::symbol& t) {
 // Is x = k y with a number k ≠ 0 for both pairs?
 bool are_proportional(const GiNaC::ex& x1, const GiNaC::ex& x2, const GiNaC::ex& y1, const GiNaC::ex& y2) {
   const GiNaC::ex k = y1.is_zero() ? GiNaC::ex(x2 / y2).normal() : GiNaC::ex(x1 / y1).normal();
-  return GiNaC::is_a<GiNaC::numeric>(k) && !k.is_zero() && GiNaC::ex(x1 - k * y1).expand().is_zero() &&
+  return GiNaC::is_a<GiNaC::numeric>(k.evalf()) && !k.is_zero() && GiNaC::ex(x1 - k * y1).expand().is_zero() &&
          GiNaC::ex(x2 - k * y2).expand().is_zero();
 }
 
@@ -89,8 +88,7 @@ std::optional<FreeTurn> without_free_turn(const Mechanism& mechanism, const Expr
   const ExactAlgebra algebra(mechanism);
   const GiNaC::ex f = algebra.value(condition);
   for (const Coordinate& c : mechanism.coordinates()) {
-    if (c.kind != CoordinateKind::angle || is_fixed(c) || !condition.mentions(c.name) || !is_full(compiled, c.name))
-      continue;
+    if (!condition.mentions(c.name) || !is_full(compiled, c.name)) continue;
     const auto is_about_it = [&](const TrigonometricSystem::Equation& e) {
       return e.relation.lhs.mentions(c.name) || e.relation.rhs.mentions(c.name);
     };

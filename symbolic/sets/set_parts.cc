@@ -53,8 +53,7 @@ bool leave_out_coordinates(const FreeCoordinates& free, std::vector<Component>& 
 // Of a set of dimension 2 or more. A part in which links turn freely is without their angles; one whose condition vanishes
 // doubly on a stratum becomes two parts, the stratum and the rest.
 std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Component> parts, const Ended& ended) {
-  const auto moving = std::ranges::count_if(mechanism.coordinates(), std::not_fn(is_fixed));
-  if (moving < std::ssize(residuals(mechanism)) + 3) return parts;
+  if (algebrize(plain_system(mechanism)).dimension() < 3) return parts;
   std::vector<Component> result;
   for (Component& part : parts) {
     if (part.dependent_angle)
