@@ -101,7 +101,7 @@ ExitStatus say(const SolveCommand& command, const result::Result& result, const 
              result.cover.complete() ? "the cover is complete, but not all that could be proven about it was"
                                      : "the result is incomplete");
   say_left_out(command, left_out);
-  if (!command.checkpoint_path.empty()) {
+  if (!command.checkpoint_path.empty() && !result.cover.complete()) {
     std::error_code error;
     const bool kept = std::filesystem::exists(command.checkpoint_path, error);
     fmt::print(stderr, "corank: {}\n",
@@ -174,6 +174,7 @@ ExitStatus solve_model(const CLI::App& sub, SolveCommand command, const result::
   result.search = journal.take_search();
   stage.emplace(control, solve::Stage::writing);
   write_file(command.result_path, result, control);
+  stage.reset();
   const std::optional<Interval> area = area_of(command, question, result, control);
   line.clear();
   remove_checkpoint(command, result);

@@ -259,7 +259,8 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
       path.length += std::sqrt(squares);
     }
   }
-  if (path.status != Path::Status::separated) path.stopped = solve::stopped_by(control);
+  // A finer cover that would have had too many boxes has ended itself, not the run.
+  if (path.status != Path::Status::separated && control.ended()) path.stopped = solve::stopped_by(control);
   path.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return path;
 }

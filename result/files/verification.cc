@@ -152,13 +152,14 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
 }
 
 // Of a set whose matrix decomposes.
-void sample_parts(const symbolic::Mechanism& model, const Result& result, const check::Options& options,
-                  Verification& verification) {
+void sample_parts(const symbolic::Mechanism& model, const Result& result, const std::vector<System>& systems,
+                  const check::Options& options, Verification& verification) {
   const auto set = *symbolic::singularity_set_from_string(result.set);
   if (symbolic::definition(set).of_parts || symbolic::definition(set).of_requirements) return;
   const symbolic::SetEquations whole(model, set);
   std::vector<check::PartOfSet> parts;
-  for (const Result& part : result.parts) parts.push_back({part.part, system_of(model, part), part.free_coordinates});
+  for (std::size_t i = 0; i < systems.size(); ++i)
+    parts.push_back({result.parts[i].part, systems[i], result.parts[i].free_coordinates});
   const System system = whole.compiled(whole.scales());
   Report report;
   report.interrupted = !check::finishes([&] {
@@ -175,9 +176,10 @@ Verification verify_parts(const Result& result, Verification verification, const
   if (!model.toleranced().empty())
     verification.contradictions.emplace_back("it has parts, which are one robot's, but the model has tolerances");
   for (std::string& c : contradictions_of_parts(model, result)) verification.contradictions.push_back(std::move(c));
+  std::vector<System> systems;
   for (std::size_t i = 0; verification.contradictions.empty() && i < result.parts.size(); ++i) {
     const Result& part = result.parts[i];
-    const System system = system_of(model, part);
+    const System& system = systems.emplace_back(system_of(model, part));
     for (const std::string& c : contradictions(part, system))
       verification.contradictions.push_back("(part: " + part.part + ") " + c);
     if (verification.contradictions.empty())
@@ -185,7 +187,7 @@ Verification verify_parts(const Result& result, Verification verification, const
     if (verification.report.interrupted) break;
   }
   if (verification.contradictions.empty() && !verification.report.interrupted)
-    sample_parts(model, result, options, verification);
+    sample_parts(model, result, systems, options, verification);
   return verification;
 }
 

@@ -54,6 +54,7 @@ class Algebrizer {
   System out_;
   PolynomialExpander expander_;
   std::set<std::string> names_;
+  std::map<std::string, std::pair<std::string, std::string>> names_of_angles_;  // of their cosines and sines
   std::vector<Polynomial> angle_equations_, chords_;
   std::vector<std::string> special_angles_;  // of one value, or dependent
   std::vector<const Constant*> parameters_;
@@ -192,8 +193,9 @@ void Algebrizer::add_angle(const Coordinate& coordinate) {
   }
   Angle angle;
   angle.name = coordinate.name;
-  angle.cosine = add_variable(fresh_name("c_" + coordinate.name), VariableKind::cosine, condition.cosine);
-  angle.sine = add_variable(fresh_name("s_" + coordinate.name), VariableKind::sine, condition.sine);
+  const auto& [cosine, sine] = names_of_angles_.at(coordinate.name);
+  angle.cosine = add_variable(cosine, VariableKind::cosine, condition.cosine);
+  angle.sine = add_variable(sine, VariableKind::sine, condition.sine);
   angle.range = Interval(range.lower.exact().enclose().lo(), range.upper.exact().enclose().hi());
   const auto c = ExpandedPolynomial::variable(angle.cosine), s = ExpandedPolynomial::variable(angle.sine);
   if (condition.value) {
@@ -285,10 +287,16 @@ void Algebrizer::add_inequality(const TrigonometricSystem::Equation& inequality)
 
 void Algebrizer::add_names() {
   for (const Constant& constant : in_.constants) names_.insert(constant.name);
-  for (const Coordinate& coordinate : in_.coordinates) names_.insert(coordinate.name);
+  const std::vector<Coordinate>& all = in_.coordinates_of_whole.empty() ? in_.coordinates : in_.coordinates_of_whole;
+  for (const Coordinate& coordinate : all) names_.insert(coordinate.name);
   names_.insert(in_.kernel_unknowns.begin(), in_.kernel_unknowns.end());
   names_.insert(in_.second_unknowns.begin(), in_.second_unknowns.end());
   for (const auto& unknown : in_.further_unknowns) names_.insert(unknown.name);
+  for (const Coordinate& c : all)
+    if (c.kind == CoordinateKind::angle) {
+      std::string cosine = fresh_name("c_" + c.name);
+      names_of_angles_.emplace(c.name, std::pair(std::move(cosine), fresh_name("s_" + c.name)));
+    }
 }
 
 void Algebrizer::add_coordinates() {

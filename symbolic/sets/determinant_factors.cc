@@ -20,12 +20,12 @@ std::size_t place_of(const Expression& e, std::size_t known, std::vector<Express
 
 }  // namespace
 
-std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended,
-                                            std::vector<Expression>* constants) {
-  ExpressionMatrix known = matrix;
-  std::vector<Expression> phi = residuals(mechanism);
-  put_in_known_values(mechanism, known, phi);
-  ExactMatrix m(mechanism, known, phi);
+namespace {
+
+std::vector<Expression> factors_of(const Mechanism& mechanism, const ExpressionMatrix& matrix,
+                                   const std::vector<Expression>& phi, const Ended& ended,
+                                   std::vector<Expression>* constants) {
+  ExactMatrix m(mechanism, matrix, phi);
   m.put_into_free_coordinates(ended);
   m.eliminate_numbers();
   const auto vanishing = [&]() -> ModelError {
@@ -56,6 +56,20 @@ std::vector<Expression> determinant_factors(const Mechanism& mechanism, const Ex
       constants->push_back(m.expression(factor));
   std::ranges::sort(result, [](const Expression& a, const Expression& b) { return a.text() < b.text(); });
   return result;
+}
+
+}  // namespace
+
+std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix, const Ended& ended,
+                                            std::vector<Expression>* constants) {
+  std::vector<Expression> phi = residuals(mechanism);
+  try {
+    return factors_of(mechanism, matrix, phi, ended, constants);
+  } catch (const DeterminantTooLarge&) {
+    ExpressionMatrix known = matrix;
+    put_in_known_values(mechanism, known, phi);
+    return factors_of(mechanism, known, phi, ended, constants);
+  }
 }
 
 ExpressionMatrix locked_matrix(const Mechanism& mechanism, SingularitySet set) {

@@ -134,6 +134,7 @@ TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales,
   TrigonometricSystem system = kernel_                          ? singularity_system(mechanism_, *kernel_, scales, corank)
                                : component && component->factor ? *component->factor
                                                                 : plain_system(mechanism_);
+  if (component && component->factor) system.coordinates_of_whole = mechanism_.coordinates();
   if (!kernel_) system.name += std::string(" ") + definition(set_).name;
   if (!part_) return system;
   if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {

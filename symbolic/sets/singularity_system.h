@@ -25,6 +25,8 @@ struct TrigonometricSystem {
   std::string name;  ///< "dextar forward"
   std::vector<Constant> constants;
   std::vector<Coordinate> coordinates;  ///< q
+  /// Of a part in fewer coordinates those of the whole, so that variables have the same names; else none.
+  std::vector<Coordinate> coordinates_of_whole{};
   /// xi1 … (renamed where the model uses the name), each in [−1, 1]. Of corank c ≥ 2 those of ξ¹, xi1_1 …, then those of ξ²,
   /// xi2_1 …
   std::vector<std::string> kernel_unknowns;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <map>
 #include <numbers>
@@ -235,6 +236,23 @@ TEST(SetPartsOf, LargeSetsOfRandomArmsAreProductsInWhichNothingIsLost) {
   EXPECT_GT(products, 6u);
   EXPECT_GT(points, 20u);
   EXPECT_EQ(lost + refused + wrong, 0u);
+}
+
+// The cosine of a joint x would be c_x, and so is called the x of a hand c.
+TEST(ArmConditions, TellAHandFromAJointOfALikeName) {
+  ModelText file = read_text(CORANK_SOURCE_DIR "/models/serial/puma_560.cuik");
+  for (const auto& [from, to] : {std::pair("theta5", "x"),
+                                 {"hand : pose", "c : pose"},
+                                 {"range [t1, t1]", ""},
+                                 {"range [t4, t4]", ""},
+                                 {"range [t6, t6]", ""}})
+    for (std::size_t at; (at = file.text.find(from)) != std::string::npos;) file.text.replace(at, std::strlen(from), to);
+  const result::Result arm = answer({.model = parse_model(file).mechanism, .set = SingularitySet::inverse}, {});
+  const auto hand = std::ranges::find(arm.variables, "c_x", &result::ResultVariable::name);
+  ASSERT_NE(hand, arm.variables.end());
+  ASSERT_EQ(hand->kind, VariableKind::length);
+  for (const CoverBox& box : arm.cover.boxes) ASSERT_EQ(box.box[hand - arm.variables.begin()], hand->domain);
+  EXPECT_TRUE(result::verify(arm).verified());
 }
 
 }  // namespace
