@@ -1,5 +1,5 @@
-// What is known at every configuration, put into a matrix, so that its blocks show: a platform that keeps its orientation has
-// rows that do not mention it.
+// What is known at every configuration, put into a matrix, so that its blocks show: a platform that keeps its orientation
+// has rows that do not mention it.
 #pragma once
 
 #include <vector>

@@ -87,7 +87,8 @@ Axis cross(const Axis& a, const Axis& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// One outer axis is on its motor's, and the eye is turned about it; or in one of its four orientations, where all motors turn.
+// One outer axis is on its motor's, and the eye is turned about it; or in one of its four orientations, where all motors
+// turn.
 TEST(FreeTurn, OfAnAgileEyesLegsLosesNothing) {
   const Model robot = read_model(CORANK_SOURCE_DIR "/models/spatial/agile_eye.cuik");
   const result::Result result = answer({.model = robot.mechanism, .set = symbolic::SingularitySet::inverse}, {});
