@@ -13,7 +13,8 @@
 namespace corank::check {
 namespace {
 
-constexpr int kSamples = 16, kAttempts = 160;  // of each system
+constexpr std::size_t kSamples = 16;
+constexpr int kAttempts = 160;  // of each system
 constexpr int kNewtonSteps = 50;
 constexpr double kStill = 1e-13, kLeastShare = 1e-7;
 constexpr std::size_t kPartsLookedAt = 300;
@@ -146,26 +147,26 @@ PartSamples sample_parts(const System& set, const std::vector<PartOfSet>& parts,
     if (!whole.put(solution, part.system, sides) || !whole.search().contract(sides)) return false;
     return kernel.columns() == 0 || !kernel.is_at_most(0, Box(sides.begin(), sides.end()));
   };
-  int drawn = 0;
-  for (int attempt = 0; attempt < kAttempts && drawn < kSamples; ++attempt) {
-    const std::optional<Sides> solution = whole.draw(random);
-    if (!solution) continue;
-    ++drawn, ++result.of_set;
-    if (std::ranges::any_of(in_parts, [&](const auto& part) { return may_be_in(*part, *solution); })) continue;
-    result.failures.push_back("a solution of the set is in no part: " + coordinates_of(set, *solution));
-    break;
-  }
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    drawn = 0;
+  // Returns how many were drawn.
+  const auto draw = [&](Sampled& from, const auto& is_in_others, const std::string& fault) {
+    std::size_t drawn = 0;
     for (int attempt = 0; attempt < kAttempts && drawn < kSamples; ++attempt) {
-      const std::optional<Sides> solution = in_parts[k]->draw(random);
+      const std::optional<Sides> solution = from.draw(random);
       if (!solution) continue;
-      ++drawn, ++result.of_parts;
-      if (may_be_in_set(parts[k], *solution)) continue;
-      result.failures.push_back("a solution of the part '" + parts[k].name +
-                                "' is none of the set: " + coordinates_of(parts[k].system, *solution));
+      ++drawn;
+      if (is_in_others(*solution)) continue;
+      result.failures.push_back(fault + ": " + coordinates_of(from.system(), *solution));
       break;
     }
+    return drawn;
+  };
+  const auto is_in_a_part = [&](const Sides& solution) {
+    return std::ranges::any_of(in_parts, [&](const auto& part) { return may_be_in(*part, solution); });
+  };
+  result.of_set = draw(whole, is_in_a_part, "a solution of the set is in no part");
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto is_in_set = [&](const Sides& solution) { return may_be_in_set(parts[k], solution); };
+    result.of_parts += draw(*in_parts[k], is_in_set, "a solution of the part '" + parts[k].name + "' is none of the set");
   }
   return result;
 }

@@ -37,7 +37,7 @@ AspectsFactor aspects_factor(const study::Question& question, const AspectsFacto
     return try_at(scaled, factor, options, control, result);
   };
   search_factor(question, attempt, options.progress, result);
-  if (!result.complete()) result.stopped = solve::stopped_by(control);
+  result.stopped = solve::stopped_by(control);
   return result;
 }
 

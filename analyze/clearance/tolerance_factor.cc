@@ -93,7 +93,7 @@ ToleranceFactor tolerance_factor(const study::Question& question, const BallOpti
   const auto attempt = [&kept](const study::Question& scaled, double factor) { return kept.try_at(scaled, factor); };
   search_factor(question, attempt, options.progress, result);
   result.ball.question = question;
-  if (!result.complete() && result.stopped.empty()) result.stopped = solve::stopped_by(control);
+  if (result.stopped.empty()) result.stopped = solve::stopped_by(control);
   return result;
 }
 

@@ -41,7 +41,7 @@ PathFactor path_factor(const study::Question& question, const result::PathFile& 
     return try_at(scaled, factor, path, control, result);
   };
   search_factor(question, attempt, options.progress, result);
-  if (!result.complete()) result.stopped = solve::stopped_by(control);
+  result.stopped = solve::stopped_by(control);
   return result;
 }
 
