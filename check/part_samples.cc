@@ -8,6 +8,7 @@
 #include "corank/check/kernel.h"
 #include "corank/check/search.h"
 #include "corank/check/sheets.h"
+#include "corank/core/box.h"
 #include "corank/core/dense.h"
 
 namespace corank::check {
@@ -104,10 +105,7 @@ class Sampled {
   std::optional<std::vector<int>> free_variables(const std::vector<double>& x) const {
     const Pivots chosen = pivots(jacobian(x), problem_.equations().size(), kLeastShare);
     if (chosen.rows.size() < problem_.equations().size()) return std::nullopt;
-    std::vector<int> free;
-    for (int j = 0; j < system().size(); ++j)
-      if (std::ranges::find(chosen.columns, j) == chosen.columns.end()) free.push_back(j);
-    return free;
+    return all_but(chosen.columns, system().size());
   }
 
   const Problem problem_;
@@ -166,7 +164,7 @@ PartSamples sample_parts(const System& set, const std::vector<PartOfSet>& parts,
   result.of_set = draw(whole, is_in_a_part, "a solution of the set is in no part");
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const auto is_in_set = [&](const Sides& solution) { return may_be_in_set(parts[k], solution); };
-    result.of_parts += draw(*in_parts[k], is_in_set, "a solution of the part '" + parts[k].name + "' is none of the set");
+    result.of_parts += draw(*in_parts[k], is_in_set, "a solution of the part '" + parts[k].name + "' is not in the set");
   }
   return result;
 }

@@ -53,7 +53,7 @@ TEST(PartSamples, TellThatAPartIsMissing) {
 TEST(PartSamples, TellThatAPartLacksAnEquation) {
   const PartSamples samples = samples_of({kOnPlane, {"sphere", part_of(kSphere + " = 0;\n")}});
   ASSERT_EQ(samples.failures.size(), 1u);
-  EXPECT_EQ(samples.failures[0].find("a solution of the part 'sphere' is none of the set: x = "), 0u);
+  EXPECT_EQ(samples.failures[0].find("a solution of the part 'sphere' is not in the set: x = "), 0u);
 }
 
 TEST(PartSamples, TellThatACoordinateIsNotFree) {
