@@ -183,19 +183,18 @@ class Replay {
   Replay(const Problem& problem, const Cover& cover, const std::function<bool(std::uint64_t)>& progress)
       : problem_(problem), cover_(cover), proof_(*cover.proof), progress_(progress), searches_([this] {
           return Search(problem_);
-        }) {
-    using Y = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-    for (const auto& [equations, dependent, y] : proof_.combinations)
-      combinations_.push_back(
-          {equations, dependent, Y(y.data(), std::ssize(dependent), std::ssize(dependent)).cast<double>()});
-  }
+        }) {}
 
   Replayed run() {
     Replayed result;
     result.tally.present = true;
     result.tally.steps = proof_.steps.size();
     try {
-      const Script script(proof_, problem_, cover_.boxes.size());
+      const Script script(proof_, problem_, cover_.boxes.size());  // refuses what is malformed, matrices among it
+      using Y = Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+      for (const auto& [equations, dependent, y] : proof_.combinations)
+        combinations_.push_back(
+            {equations, dependent, Y(y.data(), std::ssize(dependent), std::ssize(dependent)).cast<double>()});
       check_domain();
       tbb::task_group tasks;
       for (std::size_t r = 0; const std::vector<Interval>& root : proof_.roots)

@@ -68,7 +68,7 @@ bool SignCells::find_directions(SignCell& cell, bool any) {
     bit <<= 1;
   }
   for (std::size_t c = 0; c < all.size(); ++c)
-    if (cell.directions[c] != 0 || (any && grows(cell, s, all[c]))) cell.ascends |= 1U << c;
+    if (cell.directions[c] != 0 || (any && grows(cell, s, all[c]))) cell.ascends |= static_cast<std::uint8_t>(1U << c);
   if (cell.free.size() == 2 && cell.mixed.size() <= 2) add_convex_limits(cell, s);
   for (std::size_t c = 0; c < all.size(); ++c)
     if (cell.directions[c] == 0 && (cell.ascends >> c & 1) == 0) return false;

@@ -158,7 +158,7 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   const double width = relative_width(x);
   if (width <= problem_.tolerance_width) return -1;  // what remains open belongs to tolerances: other robots differ
   const bool noisy = contractor_.noisy() && width < kNoisySize;
-  const bool surface = problem_.compiled.unknowns() == problem_.compiled.equations() + 2;
+  const bool surface = problem_.compiled.unknowns() >= problem_.compiled.equations() + 2;
   const certify::NewtonStep* const step = width > problem_.heuristics.wide ? &*contractor_.step() : nullptr;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, limits(share, Sides::open), step);
   if (split < 0 && !noisy && !problem_.tolerant) {

@@ -39,7 +39,7 @@ TEST(DistancePath, KeepsBodiesApartAllAboutIt) {
     const std::vector<Box> from = finder.ends(at_place(number(0.4, 0.8), number(0.6, 1.2)), control),
                            to = finder.ends(at_place(number(0.4, 0.8), number(0.6, 1.2)), control);
     for (std::size_t k = 0; k < from.size(); ++k) {
-      solve::Control::Limits limits{.time = 20};
+      const solve::Control::Limits limits{.time = 2};  // a path is found in milliseconds or not at all
       solve::Control own(limits);
       const Path path = finder.find(from[k], to[k], own);
       ++asked;
