@@ -240,6 +240,8 @@ TEST(Degenerate, WhitneysUmbrellaIsProvenAwayFromItsHandle) {
   b.equation({{"1", {{x, 2}}}, {"-1", {{y, 2}, {z, 1}}}});
   const Cover cover = solve_with(b.system(), 0.2);
   EXPECT_TRUE(cover.complete());
+  // 408,146 where the gradient of an equation alone is never called small.
+  EXPECT_LT(cover.statistics.processed, 20'000u);
   const test::CoverLookup lookup(cover);
   for (int i = -20; i <= 20; ++i)
     for (int k = -20; k <= 20; ++k) {
@@ -254,6 +256,32 @@ TEST(Degenerate, WhitneysUmbrellaIsProvenAwayFromItsHandle) {
     if (box.free == std::vector<int>{0, 2}) return std::vector<Point>{{u, u / std::sqrt(w), w}, {u, -u / std::sqrt(w), w}};
     return std::vector<Point>{{v * std::sqrt(w), v, w}, {-v * std::sqrt(w), v, w}};
   });
+}
+
+TEST(Degenerate, SolidsThatCrossAlongASurfaceAreProvenAwayFromIt) {
+  // w (w − x + 13/10 + yz/2) = 0 in two corners of the domain: beside the crossing proofs are as narrow as their distance.
+  SystemBuilder b;
+  const int x = b.variable("x", "-1", "1"), y = b.variable("y", "-1", "1"), z = b.variable("z", "-1", "1"),
+            w = b.variable("w", "-1", "1");
+  b.equation({{"1", {{w, 2}}}, {"-1", {{w, 1}, {x, 1}}}, {"13/10", {{w, 1}}}, {"1/2", {{w, 1}, {y, 1}, {z, 1}}}});
+  Options options;
+  options.sigma = 2;
+  options.max_boxes = 400'000;
+  const Cover cover = solve(b.system(), options);
+  ASSERT_TRUE(cover.complete());
+  EXPECT_GT(cover.count(Verdict::regular), 1000u);
+  EXPECT_GT(cover.count(Verdict::undecided), 0u);
+  const test::CoverLookup lookup(cover);
+  int crossings = 0;
+  for (int i = -10; i <= 10; ++i)
+    for (int j = -10; j <= 10; ++j)
+      for (int k = -10; k <= 10; ++k) {
+        const double u = i / 10.0, v = j / 10.0, t = k / 10.0, other = u - 1.3 - v * t / 2;
+        EXPECT_TRUE(lookup.holds(Point{u, v, t, 0}, 1e-15));
+        EXPECT_TRUE(other < -1 || lookup.holds(Point{u, v, t, other}, 1e-15));
+        if (std::fabs(other) < 1e-9) expect_undecided_at(lookup, {u, v, t, 0}), ++crossings;
+      }
+  EXPECT_GT(crossings, 0);
 }
 
 TEST(Degenerate, SpheresThatTouchAreUndecidedAtTheirPointAndAtNoOther) {
