@@ -82,8 +82,7 @@ inline constexpr double kStill = 1e-11;        ///< a shorter step ends them
 
 // Sets of degenerate solutions (degeneracy.h); sizes of boxes
 inline constexpr double kPointShare = 1e-7, kOtherShare = 1.0 / 400;  ///< the last of the sizes
-/// The last along a set of degenerate solutions; of a set of dimension 3 or more the first is the last. *
-inline constexpr double kSetShare = 1.0 / 60, kSolidSetShare = 1;
+inline constexpr double kSetShare = 1.0 / 60;                         ///< the last along a set of degenerate solutions
 inline constexpr double kIsolatedHull = 8;          ///< in box sizes: boxes around one point hardly reach farther
 inline constexpr double kWideExtent = 0.25;         ///< reaches no cluster around one point
 inline constexpr std::size_t kProbes = 8;           ///< of a cluster

@@ -149,8 +149,6 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
   std::vector<const Box*> sides;
   for (const Postponed& box : boxes) sides.push_back(&box.box.x);
   const double last = system.dimension() == 0 ? kPointShare : kOtherShare;
-  // Solids meet along surfaces: each next size has 16 times as many boxes, and the solids beside them, too.
-  const double last_along = system.dimension() > 2 ? kSolidSetShare : kSetShare;
   const std::size_t former = std::exchange(former_, boxes.size());
   for (const std::vector<std::size_t>& cluster : clusters(sides, problem.limits(1e-3 * share), problem.ended)) {
     if (problem.ended()) break;  // the search takes what is left back
@@ -169,7 +167,7 @@ std::vector<Reason> SelfMotions::prove(const Problem& problem, const System& sys
       // times as many.
       const bool surface = std::ranges::any_of(
           cluster, [&](std::size_t i) { return boxes[i].proof.proven && known_[boxes[i].proof.motion].dimension > 1; });
-      if (share < (along ? last_along : last) || (open > many && (surface || 2 * open > cluster.size())))
+      if (share < (along ? kSetShare : last) || (open > many && (surface || 2 * open > cluster.size())))
         reason = Reason::degenerate_set;
     }
     for (const std::size_t i : cluster) {
