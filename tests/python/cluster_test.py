@@ -1,6 +1,7 @@
 """Searches on a cluster of worker processes come to corank solve's boxes, whatever happens to the processes."""
 
 import contextlib
+import gc
 import io
 import json
 import os
@@ -19,6 +20,8 @@ from corank import _corank
 
 pytest.importorskip("distributed", reason="no package distributed: clusters are not tested")
 psutil = pytest.importorskip("psutil")
+
+from distributed import Client  # noqa: E402
 
 from corank import cluster  # noqa: E402
 from corank.cluster import command  # noqa: E402
@@ -337,6 +340,21 @@ def test_bad_input_and_usage_have_the_exit_statuses_of_corank_solve(command_line
     assert status == 1 and "TLS needs the files of the authority" in error
     status, error = command_line(*question, "--resume", "kept")
     assert status == 2 and "expected MODEL, or --resume FILE" in error
+
+
+def test_a_client_that_finds_no_scheduler_is_gone_at_once():
+    def clients():
+        return sum(isinstance(thing, Client) for thing in gc.get_objects())
+
+    before = clients()
+    gc.disable()  # which may run at any time, also while another client begins
+    try:
+        with pytest.raises(cluster.ClusterError, match="no scheduler at tls://127.0.0.1:1: "):
+            with cluster.remote_client("tls://127.0.0.1:1"):
+                pass
+        assert clients() == before
+    finally:
+        gc.enable()
 
 
 def certificate(folder, name, authority=None):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 from typing import Iterator, Optional
 
 import dask.config
@@ -96,11 +97,17 @@ def local_client(
 @contextlib.contextmanager
 def remote_client(address: str, tls: Optional[Security] = None) -> Iterator[Client]:
     """Returns a client of the scheduler at an address such as tcp://10.0.0.1:8786, or tls://…"""
+    refusal: Optional[str] = None
     try:
         client = Client(address, security=tls, timeout="20s")
     except (OSError, ValueError) as error:
-        raise ClusterError(f"no scheduler at {address}: {error}") from None
+        refusal = str(error)
     except TypeError as error:  # dask's, without the files of a certificate
-        raise ClusterError(f"no scheduler at {address}: TLS needs a certificate's files, see security(): {error}") from None
+        refusal = f"TLS needs a certificate's files, see security(): {error}"
+    if refusal is not None:
+        # Dask closes the client that failed when it is collected. Where that happens while another client begins, both wait
+        # for one lock without end.
+        gc.collect()
+        raise ClusterError(f"no scheduler at {address}: {refusal}")
     with client:
         yield client
