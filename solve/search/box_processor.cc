@@ -158,7 +158,6 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
   const double width = relative_width(x);
   if (width <= problem_.tolerance_width) return -1;  // what remains open belongs to tolerances: other robots differ
   const bool noisy = contractor_.noisy() && width < kNoisySize;
-  const bool surface = problem_.compiled.unknowns() >= problem_.compiled.equations() + 2;
   const certify::NewtonStep* const step = width > problem_.heuristics.wide ? &*contractor_.step() : nullptr;
   int split = noisy ? -1 : branching.choose(problem_.compiled, x, limits(share, Sides::open), step);
   if (split < 0 && !noisy && !problem_.tolerant) {
@@ -166,7 +165,8 @@ int BoxProcessor::choose_split(std::span<const Interval> x, double share, std::o
     // may be, but not for long. What is regular and yet not proven in a tiny box is next to a degenerate solution: around a
     // point of a surface there would be no end of such boxes, and of surfaces that cross along a curve twice as many of
     // each next size.
-    if (!contractor_.regular() || width < kTiny || (surface && width < kRegularShare * share) || !settled_.empty())
+    if (!contractor_.regular() || width < kTiny || (problem_.has_surfaces() && width < kRegularShare * share) ||
+        !settled_.empty())
       near = degenerate_solution(x, share);
     const auto choose = [&](double finest, Sides sides) {
       return branching.choose(problem_.compiled, x, limits(finest, sides), step);

@@ -40,13 +40,12 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
   Vector way = Vector::Zero(system.variables());  // in scales
   Eigen::MatrixXd a;
   Vector b;
-  const bool surface = system.equations() > 0 && system.unknowns() > system.equations() + 1;
   for (int step = 0; step < kLocalSteps; ++step) {
     linearize(problem, result.x, a, b);
     if (!a.allFinite() || !b.allFinite()) return std::nullopt;
     // least_squares' tolerance is relative to the largest entry: where all are below it, as where a surface of one equation
     // crosses itself, the rank is 0.
-    const bool vanishes = surface && a.lpNorm<Eigen::Infinity>() < tolerance;
+    const bool vanishes = problem.has_surfaces() && a.size() > 0 && a.lpNorm<Eigen::Infinity>() < tolerance;
     const auto [shift, rank] = vanishes ? LeastSquares{Vector::Zero(a.cols()), 0} : least_squares(a, -b, tolerance);
     result.rank = rank;
     const double length = shift.size() > 0 ? shift.lpNorm<Eigen::Infinity>() : 0;

@@ -41,6 +41,8 @@ struct Problem {
   /// size. Where coefficients carry a tolerance, below which nothing can be proven, no more than σ.
   std::vector<double> limits(double share) const;
 
+  /// Have the solutions two or more degrees of freedom?
+  bool has_surfaces() const { return compiled.unknowns() > compiled.equations() + 1; }
   /// Are the sheet's proofs about an independent subset of the equations only?
   bool is_partial(const certify::Sheet& sheet) const {
     return subset || (sheet.motion < 0 && static_cast<int>(sheet.equations.size()) < compiled.equations());

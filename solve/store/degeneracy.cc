@@ -71,8 +71,7 @@ bool is_along_a_set(const Problem& problem, const std::vector<Postponed>& boxes,
                     double share) {
   // Surfaces meet each other and themselves along curves, curves do so at points. Around a point small boxes reach about
   // √share.
-  const bool surface = problem.compiled.unknowns() > problem.compiled.equations() + 1;
-  if (surface && share < kSetShare && extent(problem, boxes, cluster) > kWideExtent) return true;
+  if (problem.has_surfaces() && share < kSetShare && extent(problem, boxes, cluster) > kWideExtent) return true;
   std::mt19937 random(1);
   const std::size_t probes = std::min(kProbes, cluster.size());
   std::size_t along = 0;

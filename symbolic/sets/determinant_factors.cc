@@ -18,10 +18,6 @@ std::size_t place_of(const Expression& e, std::size_t known, std::vector<Express
   return list.size() - 1;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<Expression> factors_of(const Mechanism& mechanism, const ExpressionMatrix& matrix,
                                    const std::vector<Expression>& phi, const Ended& ended,
                                    std::vector<Expression>* constants) {

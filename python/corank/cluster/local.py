@@ -105,8 +105,8 @@ def remote_client(address: str, tls: Optional[Security] = None) -> Iterator[Clie
     except TypeError as error:  # dask's, without the files of a certificate
         refusal = f"TLS needs a certificate's files, see security(): {error}"
     if refusal is not None:
-        # Dask closes the client that failed when it is collected. Where that happens while another client begins, both wait
-        # for one lock without end.
+        # Dask closes the client that failed when it is collected. Where that happens while another client begins, its
+        # thread waits for a lock that it holds itself.
         gc.collect()
         raise ClusterError(f"no scheduler at {address}: {refusal}")
     with client:
