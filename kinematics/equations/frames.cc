@@ -364,7 +364,7 @@ void Frames::limit(const BodyJoint& j) {
     const auto arc = draft_.arc(limits, of.where);
     if (!arc) return;
     const Vec centre = image(g, cos(arc->middle) * zero + (sense * sin(arc->middle)) * cross(axis, zero));
-    draft_.at_least_zero(dot(centre, turned) - cos(arc->half), "range", of.where);
+    draft_.at_least_zero(dot(centre, turned) - cos(arc->half), "range of " + of.name, of.where);
   };
   switch (j.kind) {
     case JointKind::spherical: {

@@ -159,7 +159,7 @@ class PlanarRobot : Drafter {
     const auto arc = draft_.arc(*of.range(), of.where);
     if (!arc) return;
     const Turn theta = joint_turn(j) * Turn{{cos(arc->middle), -sin(arc->middle)}};
-    draft_.at_least_zero(theta.cosine() - cos(arc->half), "range", of.where);
+    draft_.at_least_zero(theta.cosine() - cos(arc->half), "range of " + of.name, of.where);
   }
 
   /// In the world's axes.

@@ -22,8 +22,13 @@ inline Complex conjugate(const Complex& a) { return {a.re, -a.im}; }
 struct Turn {
   Complex k;
   ex angle = 0;
-  ex cosine() const { return k.re * GiNaC::cos(angle) - k.im * GiNaC::sin(angle); }
-  ex sine() const { return k.re * GiNaC::sin(angle) + k.im * GiNaC::cos(angle); }
+  /// With cos a in place of cos(-a), -sin a in place of sin(-a), a a coordinate.
+  ex cosine() const { return k.re * GiNaC::cos(size()) - sign() * k.im * GiNaC::sin(size()); }
+  ex sine() const { return sign() * k.re * GiNaC::sin(size()) + k.im * GiNaC::cos(size()); }
+
+ private:
+  int sign() const { return GiNaC::is_a<GiNaC::symbol>(-angle) ? -1 : 1; }
+  ex size() const { return sign() * angle; }
 };
 inline Turn operator*(const Turn& a, const Turn& b) { return {a.k * b.k, a.angle + b.angle}; }
 inline Turn inverse(const Turn& a) { return {conjugate(a.k), -a.angle}; }  // |k| = 1
