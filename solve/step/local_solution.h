@@ -15,8 +15,9 @@ struct LocalSolution {
   int rank = 0;  ///< of the scaled Jacobian there: columns times the variables' scales, rows divided by their typical sizes
 };
 
-/// Gauss–Newton steps of minimal norm (in the scales) from a start, in doubles. Singular values below `tolerance` count as
-/// 0. Nothing where they do not converge, or go farther than `reach` of some variable's scale from the start.
+/// Gauss–Newton steps of minimal norm (in the scales) from a start, in doubles. Pivots of the scaled Jacobian below
+/// `tolerance` of the largest count as 0; of a set that has surfaces, all of them where no entry is larger than `tolerance`.
+/// Nothing where the steps do not converge, or go farther than `reach` of some variable's scale from the start.
 std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance,
                                             double reach = HUGE_VAL);
 
