@@ -124,6 +124,7 @@ void store_description(File& to, Data& result, bool oldest = false) {
   store_options(to, result.options, oldest);
   store_texts_if_any(to, "/outputs", result.outputs);
   store_texts_if_any(to, "/free_coordinates", result.free_coordinates);
+  store_texts_if_any(to, "/inequality_sources", result.inequality_sources);
 }
 
 // Of boxes that have sides, verdicts and free variables.

@@ -68,6 +68,8 @@ void describe_system(const System& system, Result& result) {
   result.configuration_size = system.configuration_size;
   result.equations = static_cast<int>(system.equations.size());
   result.inequalities = static_cast<int>(system.inequalities.size());
+  result.inequality_sources.clear();
+  for (const Polynomial& f : system.inequalities) result.inequality_sources.push_back(f.source);
 }
 
 void put_in(const std::vector<ConstantOverride>& constants, symbolic::Mechanism& model) {

@@ -94,6 +94,8 @@ struct Result {
   std::vector<Angle> angles;
   int configuration_size = 0;  ///< this many variables, the first ones, describe the configuration
   int equations = 0, inequalities = 0;
+  /// Where they come from, in the words of the model that the author wrote: "arm.cuik:12 (range of elbow)". None: not known.
+  std::vector<std::string> inequality_sources;
   /// Where the set consists of parts, each of these is a result of its own, with the same model, options and configuration
   /// variables, but for those that it leaves out (symbolic/sets/set_parts.h); `part` says which one it is. The whole then
   /// has the boxes of all parts, in their order and in the configuration's variables alone, those left out with their

@@ -53,12 +53,14 @@ struct Thing {
   std::string range;   ///< the coordinate whose declared range this is; empty where it is none
 };
 
-Thing thing(const System& system, const Contact& contact) {
+Thing thing(const System& system, const Result& result, const Contact& contact) {
   const std::size_t index = contact.index;
   if (contact.with == Contact::With::inequality) {
-    const std::string& source = system.inequalities[index].source;
+    const std::string& own = system.inequalities[index].source;
     for (const Angle& angle : system.angles)
-      if (source == "range of " + angle.name) return {source, angle.name};
+      if (own == "range of " + angle.name) return {own, angle.name};
+    const auto& sources = result.inequality_sources;
+    const std::string& source = sources.size() == system.inequalities.size() ? sources[index] : own;
     return {source.empty() ? fmt::format("inequality {}", contact.index + 1) : source, ""};
   }
   for (const Angle& angle : system.angles)
@@ -244,7 +246,7 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
   certify::visit_contacts(system, result.cover, [&](const CoverBox& b, const std::vector<Contact>& contacts) {
     of_box.clear();
     for (const Contact& contact : contacts) {
-      const Thing with = thing(system, contact);
+      const Thing with = thing(system, result, contact);
       if (!with.range.empty()) ends[with.range] = ends[with.range] || contact.reached;
       if (std::ranges::find(of_box, with.reason) == of_box.end()) of_box.push_back(with.reason);
     }

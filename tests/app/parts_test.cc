@@ -77,6 +77,16 @@ TEST(Parts, DeriveSaysWhatIsLeftOutOfAModel) {
               Not(HasSubstr("Left out")));
 }
 
+// The equations of an arm have no line of their own in its author's file.
+TEST(Parts, ARangeIsNamedByItsLineAndItsJointAlsoInAStoredResult) {
+  const TemporaryFolder folder;
+  std::string arm = kArmOfParts;
+  arm.insert(arm.find("\n[OUTPUTS]"), "  range [-1, 2]");
+  const std::string whole = folder.path("whole.h5"), name = "arm.cuik:9 (range of elbow)";
+  EXPECT_THAT(run_corank({"solve", folder.write("arm.cuik", arm), "--set", "cspace", "-o", whole}).out, HasSubstr(name));
+  EXPECT_THAT(run_corank({"solve", "--refine", whole}).out, HasSubstr(name));
+}
+
 TEST(Parts, AMapOverAConstantIsThatOfTheEquationsOrSaysWhatWouldChange) {
   const TemporaryFolder folder;
   const std::string four_bar = folder.write("four_bar.cuik", kFourBar), arm = folder.write("arm.cuik", kArmOfParts);
