@@ -58,6 +58,7 @@ analyze::BallOptions BallCommand::ball() const {
   options.at = named_values(at, "--at");
   options.in = parts_of(in);
   for (const std::string& part : parts_of(ranges)) options.ranges.push_back(range_of(part, options.at));
+  expect_each_once(options.ranges, "--range");
   options.orientation = orientation.rotation();
   if (!orientation_range.empty()) options.orientation_range = expression(orientation_range, "--orientation-range");
   options.orientation_of = orientation.of;

@@ -126,8 +126,8 @@ void add_plot(CLI::App& program, Action& action) {
       ->required();
   sub->add_option(
          "--color", command->picture.color,
-         "set: C-space grey, forward red, inverse blue, cspace-singular violet, others grey-blue; verdict: one colour "
-         "for each verdict; plain: all blue")
+         "set: one colour for each set, such as C-space grey, forward red, inverse blue; verdict: one colour for each\n"
+         "verdict; plain: all blue")
       ->transform(CLI::Transformer(kSchemes).description(""))
       ->type_name("set|verdict|plain")
       ->default_str("set");

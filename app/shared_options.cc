@@ -45,6 +45,7 @@ std::vector<analyze::NamedValue> named_values(const std::vector<std::string>& te
     const auto [name, value] = split_at_equals(part, option, "NAME=VALUE");
     values.push_back({name, expression(value, option)});
   }
+  expect_each_once(values, option);
   return values;
 }
 

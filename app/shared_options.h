@@ -1,7 +1,10 @@
 // What the command lines of several subcommands have: values and ranges by name, what ends a search or an analysis, --json.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,6 +13,7 @@
 #include <vector>
 
 #include "corank/analyze/clearance/ball.h"
+#include "corank/app/exit_status.h"
 #include "corank/solve/step/options.h"
 
 namespace corank::app {
@@ -21,7 +25,14 @@ std::pair<std::string, std::string> split_at_equals(const std::string& text, con
                                                     const std::string& expected);
 /// An expression of the model language, in which 15deg is an angle of 15 degrees.
 symbolic::Expression expression(const std::string& text, const std::string& option);
-/// NAME=VALUE, comma by comma.
+/// Throws UsageError where two of the list have one name.
+template <class Named>
+void expect_each_once(const std::vector<Named>& list, const std::string& option) {
+  for (const Named& one : list)
+    if (std::ranges::count(list, one.name, &Named::name) > 1)
+      throw UsageError(fmt::format("{}: '{}' is given twice; expected each name once", option, one.name));
+}
+/// NAME=VALUE, comma by comma, each name once.
 std::vector<analyze::NamedValue> named_values(const std::vector<std::string>& texts, const std::string& option);
 
 /// An option and what a help calls its value: add_option(sub, "--at NAME=VALUE,...", at, "The values"). Of a list one word
