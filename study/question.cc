@@ -45,12 +45,10 @@ Components components_wanted(const Question& q, std::optional<std::optional<symb
   if (q.in_parts) return *q.in_parts ? Components::yes : Components::no;
   // These can be assembled in several ways, which meet at configurations whose kernels have larger dimensions.
   if (q.assembly && (!q.assembly->parallelograms.empty() || q.assembly->has_universal_rods)) return Components::yes;
-  constexpr long kLeastMobility = 3, kLongKernel = 10, kLongKernelOfAnArm = 6;
-  const std::vector<symbolic::Coordinate>& all = q.model.coordinates();
-  const bool own = q.model.has_own_velocity_equation();
-  const long columns = own ? std::ssize(q.model.rates()) : std::ssize(all),
-             rows = own ? std::ssize(q.model.velocity_equations()) : std::ssize(q.model.equations());
-  if (columns - rows - std::ranges::count_if(all, symbolic::is_fixed) >= kLeastMobility) return Components::yes;
+  constexpr long kMobilityOfSurfaces = 3, kLongKernel = 10, kLongKernelOfAnArm = 6;
+  if (symbolic::mobility(q.model) >= kMobilityOfSurfaces) return Components::yes;
+  const long rows =
+      q.model.has_own_velocity_equation() ? std::ssize(q.model.velocity_equations()) : std::ssize(q.model.equations());
   if (rows >= kLongKernelOfAnArm && rows < kLongKernel) free = symbolic::free_coordinates(q.model);
   const bool is_long = rows >= kLongKernel || (free && *free);
   return is_long ? Components::if_simple : Components::no;

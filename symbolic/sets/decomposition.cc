@@ -14,7 +14,7 @@
 namespace corank::symbolic {
 namespace {
 
-constexpr std::size_t kMostRows = 3;              // of a block whose determinant is a condition though it is no product
+constexpr std::size_t kMostRows = 3;  // of a block whose determinant is a condition of points though it is no product
 constexpr std::size_t kMostConditionTerms = 200;  // of a condition: longer ones make wide enclosures
 constexpr std::size_t kMostTermsInJoints = 2000;  // but in four joints they are the best there is
 constexpr std::size_t kLongestName = 60;
@@ -127,7 +127,7 @@ class Decomposer {
  public:
   Decomposer(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi,
              const Ended& ended)
-      : ended_(ended), space_(mechanism), matrix_(mechanism, matrix, phi) {}
+      : ended_(ended), is_points_(mobility(mechanism) < 2), space_(mechanism), matrix_(mechanism, matrix, phi) {}
 
   std::vector<Component> run() {
     matrix_.put_into_free_coordinates(ended_);
@@ -201,7 +201,8 @@ class Decomposer {
     std::ranges::sort(result.conditions, [](const Expression& a, const Expression& b) {
       return std::pair(a.text().size(), a.text()) < std::pair(b.text().size(), b.text());
     });
-    if (block.rows.size() > kMostRows && result.conditions.size() == 1 && !matrix_.is_explicit()) return std::nullopt;
+    const bool is_short = block.rows.size() <= kMostRows || result.conditions.size() != 1;
+    if (!is_short && is_points_ && !matrix_.is_explicit()) return std::nullopt;
     return result;
   }
 
@@ -229,6 +230,7 @@ class Decomposer {
   }
 
   const Ended& ended_;
+  const bool is_points_;
   const Space space_;
   ExactMatrix matrix_;
   std::vector<Component> components_;

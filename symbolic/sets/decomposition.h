@@ -25,7 +25,8 @@ struct Component {
   std::string name;  ///< "phi_rod1 = theta1", "x_C = 0", "condition on theta1, theta2, theta3 (2)"
   std::optional<DependentAngle> dependent_angle{};  ///< of sin(a ∓ b) = 0 or cos(a ∓ b) = 0, each a part for either way
   std::optional<Expression> condition{};
-  std::optional<ExpressionMatrix> block{};  ///< with a kernel vector: more than three rows whose determinant is no product
+  /// With a kernel vector: its determinant is long; or it is no product, of more than three rows, and the set is points.
+  std::optional<ExpressionMatrix> block{};
   /// In place of Φ(q) = 0, where some coordinates are left out (set_parts.h).
   std::shared_ptr<const TrigonometricSystem> factor{};
   bool condition_in_factor = false;        ///< whose equations say it

@@ -191,6 +191,14 @@ Derivation derive(const Mechanism& mechanism) {
   return remembered.of(mechanism, derives_alike, derived);
 }
 
+long mobility(const Mechanism& mechanism) {
+  const std::vector<Coordinate>& all = mechanism.coordinates();
+  const auto free = mechanism.has_own_velocity_equation()
+                        ? std::ssize(mechanism.rates()) - std::ssize(mechanism.velocity_equations())
+                        : std::ssize(all) - std::ssize(mechanism.equations());
+  return free - std::ranges::count_if(all, is_fixed);
+}
+
 std::vector<Expression> residuals(const Mechanism& mechanism) {
   std::vector<Expression> phi;
   for (const Constraint& equation : mechanism.equations()) phi.push_back(residual(equation.relation));

@@ -46,6 +46,9 @@ struct Derivation {
   VelocityEquation velocity;
 };
 
+/// Coordinates less equations, or rates less velocity equations of its own; without the coordinates that have one value.
+long mobility(const Mechanism& mechanism);
+
 /// Φ.
 std::vector<Expression> residuals(const Mechanism& mechanism);
 
