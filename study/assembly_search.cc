@@ -77,8 +77,9 @@ void search_assembly(const Question& question, solve::Control& control, result::
     solve::Control part(control.rest(0, kMostBoxes));
     Cover cover = find_configuration(system, part);
     empty = cover.complete() && cover.boxes.empty();
-    result.assembly = {
-        describe(asked, system, {.search = {.max_boxes = part.limits().boxes}}, std::move(cover), part.ending())};
+    std::optional<solve::Ending> ending = part.ending();
+    if (ending && ending->by == solve::Limit::solutions) ending.reset();  // the search's own
+    result.assembly = {describe(asked, system, {.search = {.max_boxes = part.limits().boxes}}, std::move(cover), ending)};
     note(part);
   }
   if (!empty || control.ended()) return;

@@ -87,6 +87,10 @@ void require_exact_value(const symbolic::Mechanism& model, const symbolic::Expre
 
 std::vector<Question> parts_of(const Question& question, const Ended& ended) {
   if (!question.set) return {question};
+  if (question.assembly && question.model.constraints().empty() && question.model.outputs().empty())
+    throw symbolic::ModelError({question.model.name(), 0, 0},
+                               "the robot has no loops and no outputs: every value of its joints is a configuration",
+                               "a line [OUTPUTS], or a joint that closes a loop");
   if (!question.model.toleranced().empty()) {  // a factor, and what meets at a limit, is one robot's
     if (definition(question.set).of_parts) require_exact_constants(question.model, "a workspace's boundary");
     if (question.in_parts.value_or(false)) require_exact_constants(question.model, "a set that is solved in parts");

@@ -39,7 +39,7 @@ class KeptRadius {
     if (keeps(found)) return {FactorStep::Kept::yes, factor};
     if (!falls_short(found)) {
       result_.stopped = found.stopped;
-      return {.obstacle = obstacle_of(found), .ends = true};
+      return {.obstacle = obstacle_of(found), .ends = !found.stopped.empty()};
     }
     result_.nearest = found.values;
     return {FactorStep::Kept::no, factor, found.robot};

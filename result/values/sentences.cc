@@ -53,16 +53,18 @@ struct Thing {
   std::string range;   ///< the coordinate whose declared range this is; empty where it is none
 };
 
+Thing inequality(const System& system, const Result& result, std::size_t index) {
+  const std::string& own = system.inequalities[index].source;
+  for (const Angle& angle : system.angles)
+    if (own == "range of " + angle.name) return {own, angle.name};
+  const auto& sources = result.inequality_sources;
+  const std::string& source = sources.size() == system.inequalities.size() ? sources[index] : own;
+  return {source.empty() ? fmt::format("inequality {}", index + 1) : source, ""};
+}
+
 Thing thing(const System& system, const Result& result, const Contact& contact) {
   const std::size_t index = contact.index;
-  if (contact.with == Contact::With::inequality) {
-    const std::string& own = system.inequalities[index].source;
-    for (const Angle& angle : system.angles)
-      if (own == "range of " + angle.name) return {own, angle.name};
-    const auto& sources = result.inequality_sources;
-    const std::string& source = sources.size() == system.inequalities.size() ? sources[index] : own;
-    return {source.empty() ? fmt::format("inequality {}", contact.index + 1) : source, ""};
-  }
+  if (contact.with == Contact::With::inequality) return inequality(system, result, index);
   for (const Angle& angle : system.angles)
     if (contact.index == angle.cosine || contact.index == angle.sine) return {"range of " + angle.name, angle.name};
   const Variable& v = system.variables[index];
@@ -212,6 +214,7 @@ std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, 
       if (std::ranges::find(joints, c.name) != joints.end()) result.push_back(c.name);
       continue;
     }
+    if (system.variables[own[0]].lower == system.variables[own[0]].upper) continue;  // at its limit
     // An angle has its circle, and both may have their ranges.
     std::size_t left = 0;
     bool alone = true;
@@ -264,6 +267,16 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
     if (c.auxiliary && !end->second) continue;  // as a link's vector: the ends of its range are out of its reach
     result.domain.ends.push_back({c.name, end->second});
   }
+  if (symbolic::definition(result.set).of_parts) {
+    // A sign chooses one of two ways in which axes or angles agree; it changes at no configuration.
+    const auto is_choice = [](const std::string& source) {
+      return source.ends_with("(angle)") || source.ends_with("(axis)");
+    };
+    for (std::size_t i = 0; i < system.inequalities.size(); ++i)
+      if (const Thing one = inequality(system, result, i); one.range.empty() && !is_choice(one.reason))
+        if (std::vector<std::string>& list = result.domain.no_limits; std::ranges::find(list, one.reason) == list.end())
+          list.push_back(one.reason);
+  }
   for (const auto& [reason, boxes] : reasons) result.domain.boundary.push_back({reason, boxes});
   if (others > 0) result.domain.boundary.push_back({"rounding", others});
   std::ranges::stable_sort(result.domain.boundary, [](const auto& a, const auto& b) { return a.boxes > b.boxes; });
@@ -277,6 +290,10 @@ std::vector<std::string> range_end_sentences(const DomainNotes& notes) {
       if (end.reached == reached) names.push_back(end.coordinate);
     if (!names.empty()) sentences.push_back(sentence(reached ? "reaches" : "may reach", names));
   }
+  if (!notes.no_limits.empty())
+    sentences.push_back(
+        fmt::format("the workspace may also end where {} is reached; the set does not have these configurations",
+                    listed(notes.no_limits, " or ")));
   return sentences;
 }
 

@@ -40,7 +40,8 @@ std::vector<std::string> free_coordinates(const symbolic::Mechanism& mechanism, 
 std::string free_text(const Result& result);
 /// The part of describe_in_words() that is about ranges.
 void describe_domain(const symbolic::Mechanism& mechanism, const System& system, Result& result);
-/// "reaches the ends of x, y: not searched beyond", "may reach the end of theta: not searched beyond"; none, one or both.
+/// "reaches the ends of x, y: not searched beyond", "may reach the end of theta: not searched beyond", "the workspace may
+/// also end where arm.cuik:9 (range of elbow) is reached"; those that there are.
 std::vector<std::string> range_end_sentences(const DomainNotes& notes);
 /// "c_t3 = c_t2": a linear relation, solved for the first variable that has the coefficient 1, or the first.
 std::string relation_text(const Result& result, const Polynomial& f);

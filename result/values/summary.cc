@@ -228,8 +228,8 @@ std::string in_words(Reason reason, const Result& result) {
 std::string motions_text(const Result& result) {
   std::string text;
   for (std::size_t k = 0; k < result.cover.self_motions.size(); ++k)
-    text += fmt::format("a set larger than expected, in {}: {}\n", counted(boxes_on(result.cover, k), "box"),
-                        motion_sentence(result, k));
+    if (const std::size_t boxes = boxes_on(result.cover, k); boxes > 0)
+      text += fmt::format("a set larger than expected, in {}: {}\n", counted(boxes, "box"), motion_sentence(result, k));
   for (const Result& part : result.parts) text += motions_text(part);
   return text;
 }

@@ -30,9 +30,13 @@ struct Outline {
 Outline outline(const Mechanism& mechanism) {
   Outline o{mechanism.without_rates(), {}, {}};
   const SourceLocation where{mechanism.name(), 0, 0};
-  if (mechanism.outputs().empty())
-    throw ModelError(where, "the model names no outputs, over which the boundary lies",
-                     "a line [OUTPUTS], or --outputs NAME,NAME");
+  if (mechanism.outputs().empty()) {
+    const bool by_rates = std::ranges::any_of(mechanism.rates(), [](const Rate& r) { return r.role == Role::output; });
+    throw by_rates ? ModelError(where, "the model's outputs are rates, as of an orientation: no space with a boundary",
+                                "coordinates as outputs: a position, a direction or a joint")
+                   : ModelError(where, "the model names no outputs, over which the boundary lies",
+                                "a line [OUTPUTS], or --outputs NAME,NAME");
+  }
   Derivation derivation = derive(o.mechanism);
   o.velocity = std::move(derivation.velocity);
   o.phi = std::move(derivation.phi);
@@ -43,7 +47,7 @@ Outline outline(const Mechanism& mechanism) {
   if (o.phi.empty() || o.free > o.mobility || o.free < 1)
     throw ModelError(where,
                      "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(o.free) +
-                         " free output" + (o.free == 1 ? "" : "s"),
+                         " free output" + (o.free == 1 ? "" : "s") + " (" + listed(mechanism.outputs()) + ")",
                      "at least one output, and at most as many as the mobility");
   return o;
 }

@@ -1,5 +1,6 @@
 // The boundary of a mechanism's workspace in the space of its outputs u, as parts: which limited coordinates are at which
-// limit. Every boundary of the workspace, interior or exterior, is the image of a point of some part.
+// limit. Every boundary of the workspace, interior or exterior, is the image of a point of some part, or of a configuration
+// at which an inequality is reached.
 //
 // With Φ(q) = 0, mobility n = n_q − n_e, n_u ≤ n outputs, z all other coordinates and A a set of limited coordinates of
 // z, each at one of its limits:
@@ -7,7 +8,8 @@
 //   part of a limited output u_i:   Φ(q) = 0,  u_i = limit,  all limits hold
 // Theorem (doc/theory.md, "Workspace boundaries"): the configurations from which the output cannot move, to first order and
 // with the coordinates at their limits kept there, in some direction are those of the parts with |A| ≤ n − n_u + 1 and of
-// the limited outputs. A part A has the expected dimension n_u − 1.
+// the limited outputs. A part A has the expected dimension n_u − 1. The workspace may also end where an inequality of the
+// model is reached, which is not looked for: DomainNotes::no_limits.
 //
 // Generalized singularities: Bohigas, Manubens, Ros, "Singularities of Robot Mechanisms", 2017 (key Bohigas2017), whose
 // sin τ in place of a limited coordinate gives the same configurations, each several times.

@@ -146,7 +146,7 @@ void find_ranges(TrigonometricSystem& system) {
     if (c.has_range) continue;
     if (!is_plausible(side(c)))
       throw ModelError(c.where, "corank finds no bounds in the equations for " + in_quotes(c.name) + ", which has no range",
-                       "a range, " + shortened(c.name) + " : [lower, upper]");
+                       "a range [lower, upper] where it is declared");
     widen(side(c), c);
   }
 }

@@ -194,6 +194,24 @@ TEST(ToleranceFactor, IsWhereTheWorstRobotJustKeepsTheRadius) {
   }
 }
 
+// A point is held by two legs. Where d is less than 5 + √7, the second one would be shorter at the centre, (5, 3), than its
+// limit: no singularity shows that.
+TEST(ToleranceFactor, IsSoughtAlsoBelowAFactorThatIsLeftOpen) {
+  const study::Question legs{
+      .model = symbolic::parse_model("[CONSTANTS]\nd := 10 ± 0.1\n[SYSTEM VARS]\nx : [-20, 20]\ny : [-20, 20]\n"
+                                     "r1 : [1/2, 12]\nr2 : [1/2, 12]\n[SYSTEM EQS]\nx^2 + y^2 = r1^2;\n"
+                                     "(x - d)^2 + y^2 = r2^2;\n[INPUTS] r1 r2\n[OUTPUTS] x y\n"
+                                     "[LIMITS]\nr1 : [4, 9]\nr2 : [4, 9]\n",
+                                     "legs.cuik"),
+      .set = symbolic::SingularitySet::forward};
+  solve::Control control;
+  const BallOptions at{.at = {{"x", "5"}, {"y", "3"}}, .in = {"x", "y"}};
+  const ToleranceFactor f = tolerance_factor(legs, at, {.radius = 2.5, .precision = 0.05}, {}, control);
+  const double largest = 10 * (5 - std::sqrt(7.0));  // 10 − 0.1 · largest = 5 + √7
+  EXPECT_LE(f.lower, largest);
+  EXPECT_GE(f.lower, 20);  // 16 is proven, 32 is open
+}
+
 TEST(ToleranceFactor, IsZeroWhereTheRobotAsDrawnFallsShort) {
   solve::Control control;
   const study::Question question = robot("dextar.cuik", links(0.001));

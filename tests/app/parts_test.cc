@@ -87,6 +87,63 @@ TEST(Parts, ARangeIsNamedByItsLineAndItsJointAlsoInAStoredResult) {
   EXPECT_THAT(run_corank({"solve", "--refine", whole, "-o", folder.file("cut.h5")}).out, HasSubstr(name));
 }
 
+// Its elbow has no coordinate, so its range is an inequality.
+TEST(Parts, AWorkspacesBoundarySaysWhereItDoesNotLook) {
+  const TemporaryFolder folder;
+  std::string arm = kArmOfParts;
+  arm.replace(arm.rfind("  actuated\n[OUTPUTS]"), 10, "  zero (1, 0, 0) (1, 0, 0)  range [-1, 2]");
+  arm.erase(arm.find("  actuated"), 10);
+  const std::string file = folder.write("arm.cuik", arm);
+  EXPECT_EQ(solved({file, "--set", "boundary"})["no_limits"], json({"arm.cuik:9 (range of elbow)"}));
+  EXPECT_EQ(solved({file, "--set", "cspace"})["no_limits"], json::array());
+  EXPECT_THAT(run_corank({"solve", file, "--set", "boundary"}).out,
+              HasSubstr("the workspace may also end where arm.cuik:9 (range of elbow) is reached"));
+}
+
+TEST(Parts, ACoordinateIsNotFreeWhereItIsAtItsLimit) {
+  const TemporaryFolder folder;
+  const std::string carriage = folder.write(
+      "carriage.cuik",
+      "[LINKS]\nbase : point S (0, 0, 0)\ncarriage : point S (0, 0, 0)\narm : point H (1, 0, 0)\n"
+      "[JOINTS]\nprismatic x : base S + (1, 0, 0)  carriage S + (1, 0, 0)  actuated  range [0, 1/2]\n"
+      "revolute turn : carriage S + (0, 0, 1)  arm (0, 0, 0) + (0, 0, 1)  zero (1, 0, 0) (1, 0, 0)  actuated  range [1, 2]\n"
+      "[OUTPUTS]\nhand : position of arm.H\n");
+  const json boundary = solved({carriage, "--set", "boundary"});
+  EXPECT_EQ(boundary["free_coordinates"], json::array());
+  std::size_t at_a_limit = 0;
+  for (const json& part : boundary["parts"]) {
+    const std::string name = part["part"];
+    at_a_limit += name.starts_with("x at its");
+    EXPECT_EQ(part["free_coordinates"], name.starts_with("x at its") ? json::array() : json({"x"})) << name;
+  }
+  EXPECT_EQ(at_a_limit, 2u);
+}
+
+TEST(Parts, SetsThatARobotDoesNotHaveAreRefusedWithTheReason) {
+  const TemporaryFolder folder;
+  std::string free = kArmOfParts;
+  free.resize(free.find("[OUTPUTS]"));
+  EXPECT_THAT(run_corank({"solve", folder.write("free.cuik", free), "--set", "forward"}).err,
+              HasSubstr("the robot has no loops and no outputs: every value of its joints is a configuration"));
+  EXPECT_THAT(run_corank({"solve", model("spatial/agile_eye"), "--set", "boundary"}).err,
+              HasSubstr("the model's outputs are rates, as of an orientation"));
+}
+
+// A wiper that can be assembled at the very ends of its range only.
+TEST(Parts, ASearchForAConfigurationNamesNoLimitOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::string wiper = folder.write(
+      "wiper.cuik",
+      "[LINKS]\nground : point O (0, 0, 0)\ncrank\ncoupler\nrocker\n[JOINTS]\n"
+      "revolute drive : ground O + (0, 0, 1)  crank (0, 0, 0) + (0, 0, 1)  actuated\n"
+      "revolute : crank (0, 0, 0) + (sin(20deg), 0, cos(20deg))  coupler (0, 0, 0) + (0, 0, 1)\n"
+      "revolute : coupler (0, 0, 0) + (sin(70deg), 0, cos(70deg))  rocker (0, 0, 0) + (sin(80deg), 0, cos(80deg))\n"
+      "revolute wipe : ground O + (1, 0, 0)  rocker (0, 0, 0) + (0, 0, 1)  zero (0, 1, 0) (0, 1, 0)  range [-90deg, 90deg]\n"
+      "[OUTPUTS]\nwipe : joint wipe\n");
+  EXPECT_THAT(run_corank({"solve", wiper, "--set", "forward"}).out,
+              HasSubstr("assembled within its ranges: C-space is not proven to be empty, but no configuration is proven"));
+}
+
 TEST(Parts, AMapOverAConstantIsThatOfTheEquationsOrSaysWhatWouldChange) {
   const TemporaryFolder folder;
   const std::string four_bar = folder.write("four_bar.cuik", kFourBar), arm = folder.write("arm.cuik", kArmOfParts);

@@ -251,8 +251,12 @@ TEST(SetPartsOf, SurfacesByDefaultAndOfCurvesWhereTheyAreAskedFor) {
   }
   legs.set = SingularitySet::forward;  // one equation in place of the kernel vector
   EXPECT_THAT(names_of(parts_of(legs)), ElementsAre("condition on psi1, psi2, psi3, pose_phi"));
-  Question block{.model = model_named("planar/3rpr"), .set = SingularitySet::forward};
-  EXPECT_THAT(names_of(parts_of(block)), ElementsAre("whole"));
+  const Question four_rows{.model = model_named("planar/3rpr"), .set = SingularitySet::forward};
+  EXPECT_THAT(names_of(parts_of(four_rows)), ElementsAre("condition on alpha1, alpha2, alpha3, pose_phi"));
+  Question points{.model = model_named("planar/double_butterfly"), .set = SingularitySet::forward};
+  EXPECT_THAT(names_of(parts_of(points)), ElementsAre("whole"));
+  points.in_parts = true;
+  EXPECT_THAT(names_of(parts_of(points)), ElementsAre(testing::StartsWith("block of ")));
   Question curve{.model = model_named("dextar"), .set = SingularitySet::forward};
   EXPECT_THAT(names_of(parts_of(curve)), ElementsAre("whole"));
   curve.in_parts = true;

@@ -67,7 +67,7 @@ TEST(FoundRange, IsAskedForWhereTheEquationsGiveNone) {
     } catch (const ModelError& error) {
       EXPECT_THAT(error.what(),
                   HasSubstr("m.cuik:5:1: corank finds no bounds in the equations for 'x', which has no range; expected a "
-                            "range, x : [lower, upper]"));
+                            "range [lower, upper] where it is declared"));
     }
   }
 }
