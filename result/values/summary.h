@@ -27,7 +27,8 @@ std::string to_table(const Result& result);
 /// what and in which stage), boxes{processed, regular, isolated, exact, boundary, partial, undecided, pending},
 /// undecided_reasons{reason: boxes}, observed_dimension, self_motions[{dimension, boxes, relations, text}],
 /// boundary_reasons, range_ends, no_limits, ranges_found, tolerances, points, meaning, node_distance, kernel,
-/// free_coordinates, seconds{total, search, certify}, version. Every double reads back as the same double; sigma is null where it is infinite.
+/// free_coordinates, seconds{total, search, certify}, version. Every double reads back as the same double; sigma is null
+/// where it is infinite.
 ///
 /// `free_coordinates` lists those that take every value in their ranges, whatever the others are (Result).
 /// `observed_dimension` is null, or that of a set along which boxes stayed undecided, as samples show, where it is larger
