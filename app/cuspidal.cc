@@ -64,9 +64,7 @@ void add_cuspidal(CLI::App& program, Action& action) {
                   "Which singularities are not to be met. inverse: postures of one pose are joined (default for arms);\n"
                   "forward: poses for the same values of the motors (default for robots with loops)")
       ->check(CLI::IsMember({"forward", "inverse"}));
-  sub->add_option("--poses", command->options.poses, "How many poses are tried")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  sub->add_option("--poses", command->options.poses, "How many poses are tried")->check(positive())->capture_default_str();
   add_option(*sub, "-o,--output FILE", command->output, "Write the path, with its proof, for corank verify (.h5)");
   add_option(*sub, "--report FILE.html", command->report,
              "Write an HTML page on which the robot changes its posture, if it is cuspidal");

@@ -77,7 +77,7 @@ void QuestionOptions::add_corank(CLI::App& sub) {
   add_option(sub, "--corank C", corank,
              "Only those of these configurations at which the kernel of the matrix M has dimension C or more;\n"
              "default: 1, which gives all singularities")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
 }
 
 void QuestionOptions::add_definitions(CLI::App& sub) {
