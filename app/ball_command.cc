@@ -27,7 +27,7 @@ analyze::NamedRange range_of(const std::string& text, const std::vector<analyze:
 
 void BallCommand::add_options(CLI::App& sub, const std::string& required) {
   question.add_options(sub, "Which configurations the ball must not hold",
-                       "Then the ball holds no configuration at which one reaches its limit");
+                       "Then the ball holds no configuration at which one reaches its limit", false);
   add_option(sub, "--at NAME=VALUE,...", at,
              "The centre of the ball, and other coordinates that keep a value; a VALUE may use the model's constants, and\n"
              "15deg is an angle in degrees");

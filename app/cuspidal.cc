@@ -29,6 +29,14 @@ std::string CuspidalCommand::line() const {
   return text;
 }
 
+// Where nothing was found of the kind of singularities that was chosen for the user.
+std::string hint(const CuspidalCommand& command, const analyze::Cuspidality& found) {
+  const bool chosen = command.of.empty() && found.of == analyze::Avoid::forward;
+  return chosen && !found.cuspidal
+             ? "--of inverse asks whether two postures of one pose are joined without inverse singularities\n"
+             : "";
+}
+
 ExitStatus find_out(CuspidalCommand command) {
   command.json.begin(command.question.file);
   check_output(command.output);
@@ -48,7 +56,7 @@ ExitStatus find_out(CuspidalCommand command) {
     write_path_page(command.report, question, report::cuspidal_view(found), command.line(), command.output,
                     command.options.threads, run.control());
   if (command.json.say([&] { return to_json(found, question.model.name(), command.output); }))
-    fmt::print("{}", result::printable(to_text(found, question.model.name())));
+    fmt::print("{}{}", result::printable(to_text(found, question.model.name())), hint(command, found));
   return found.complete ? kDone : stopped_early(found.stopped);
 }
 
@@ -62,11 +70,9 @@ void add_cuspidal(CLI::App& program, Action& action) {
   command->question.add_definitions(*sub);
   sub->add_option("--of", command->of,
                   "Which singularities are not to be met. inverse: postures of one pose are joined (default for arms);\n"
-                  "forward: poses for the same values of the motors (default for robots with loops)")
+                  "forward: poses for the same values of the motors (default for robots with loops, or given by equations)")
       ->check(CLI::IsMember({"forward", "inverse"}));
-  sub->add_option("--poses", command->options.poses, "How many poses are tried")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  sub->add_option("--poses", command->options.poses, "How many poses are tried")->check(positive())->capture_default_str();
   add_option(*sub, "-o,--output FILE", command->output, "Write the path, with its proof, for corank verify (.h5)");
   add_option(*sub, "--report FILE.html", command->report,
              "Write an HTML page on which the robot changes its posture, if it is cuspidal");

@@ -103,7 +103,7 @@ void add_path(CLI::App& program, Action& action) {
         ->required();
     sub->add_option(name + "-mode", mode,
                     "Which solution to take, by its number, if there are several; without it, corank lists them and ends")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
   };
   add_end("--from", command->from, command->from_mode);
   add_end("--to", command->to, command->to_mode);
@@ -116,11 +116,11 @@ void add_path(CLI::App& program, Action& action) {
   sub->add_option("--radius", command->options.radius,
                   "Look for a path with this radius of sines and cosines (see below); if none is found, take one with a\n"
                   "smaller radius; default: 0")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   add_threads(*sub, command->options.threads);
   add_option(*sub, "--max-boxes N", command->options.max_boxes,
              "Enclose C-space in at most N boxes when looking for the path")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   add_time_limit(*sub, command->time_limit, "End after SECONDS");
   add_option(*sub, "-o,--output FILE.h5", command->output,

@@ -133,7 +133,7 @@ void add_plot(CLI::App& program, Action& action) {
       ->default_str("set");
   sub->add_option("--size", command->picture.size,
                   "Draw each box as a cube with this edge about its centre; 0: draw boxes as they are")
-      ->check(CLI::Range(0.0, 1e300, "a non-negative number"))
+      ->check(not_negative())
       ->capture_default_str();
   add_option(*sub, "--title TEXT", command->portrait.title, "A line of text above a .svg, .pdf or .png");
   sub->add_flag("--legend,!--no-legend", command->portrait.legend, "Explain the colours in a .svg, .pdf or .png (default)");

@@ -94,7 +94,7 @@ void add_postures(CLI::App& program, Action& action) {
              "the pose from 1, and one for each joint (in radians)")
       ->check(CLI::ExistingFile);
   sub->add_option("--within", command->within, "How far apart two solutions may be in each joint to count as the same")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->capture_default_str();
   add_analysis_limits(*sub, command->threads, command->time_limit);
   command->json.add(*sub);

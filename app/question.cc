@@ -19,14 +19,18 @@ std::vector<std::string> set_names(bool usual) {
   return names;
 }
 
-void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set, const std::string& of_requirements) {
+void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set, const std::string& of_requirements,
+                                  bool boundary) {
   add_model(sub);
   std::vector<std::string> sets = set_names();
+  if (!boundary) std::erase(sets, symbolic::to_string(symbolic::SingularitySet::boundary));
   sets.emplace_back(kNodes);
   sub.add_option("--set", set,
                  of_set +
                      ": all (cspace); the forward, inverse or C-space singularities; those that are forward and inverse at "
-                     "once; the boundary of the workspace; where a requirement reaches its limit; the singularities of one "
+                     "once; " +
+                     (boundary ? "the boundary of the workspace; " : "") +
+                     "where a requirement reaches its limit; the singularities of one "
                      "type: redundant output (ro), "
                      "redundant passive motion (rpm), redundant input (ri), impossible input (ii), impossible output (io), "
                      "increased instantaneous mobility (iim); or the cusps or nodes (self-crossings) of the projection of "
@@ -42,7 +46,7 @@ void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set, cons
                  "M has more columns than rows; (3) otherwise right")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(sub);
-  add_outputs(sub);
+  if (boundary) add_outputs(sub);
   add_require(sub, of_requirements);
   add_definitions(sub);
 }
@@ -73,7 +77,7 @@ void QuestionOptions::add_corank(CLI::App& sub) {
   add_option(sub, "--corank C", corank,
              "Only those of these configurations at which the kernel of the matrix M has dimension C or more;\n"
              "default: 1, which gives all singularities")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
 }
 
 void QuestionOptions::add_definitions(CLI::App& sub) {

@@ -26,9 +26,9 @@ struct QuestionOptions {
   int corank = 1;                        ///< of the sets with a kernel
 
   /// FILE, --loops, --set, --kernel, --corank, --require and -D. `of_set`: what the set is for, before the words that choose
-  /// it.
+  /// it. `boundary`: may it be the workspace's boundary, for which there is --outputs then?
   void add_options(CLI::App& sub, const std::string& of_set = "Which configurations of a mechanism",
-                   const std::string& of_requirements = "For --set requirements");
+                   const std::string& of_requirements = "For --set requirements", bool boundary = true);
   /// FILE and --loops.
   void add_model(CLI::App& sub);
   void add_corank(CLI::App& sub);

@@ -114,8 +114,7 @@ class HelpFormat : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     // What CLI11 says of a value's range is no part of what is to be typed.
-    static const std::regex range(
-        R"(:(FILE|POSITIVE|NONNEGATIVE|SIZE \[[^\]]*\]|(INT|FLOAT) in \[[^\]]*\]|a number from 0 to 1000))");
+    static const std::regex range(R"(:(FILE|SIZE \[[^\]]*\]|(INT|FLOAT) in \[[^\]]*\]|a number from 0 to 1000))");
     return in_two_columns(std::regex_replace(make_option_name(option, is_positional) + make_option_opts(option), range, ""),
                           make_option_desc(option), column_width_);
   }

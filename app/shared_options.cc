@@ -49,6 +49,17 @@ std::vector<analyze::NamedValue> named_values(const std::vector<std::string>& te
   return values;
 }
 
+namespace {
+
+CLI::Validator in_words(const CLI::Validator& check, const std::string& expected) {
+  return {[check, expected](std::string& text) { return check(text).empty() ? "" : text + " is not " + expected; }, ""};
+}
+
+}  // namespace
+
+CLI::Validator not_negative() { return in_words(CLI::NonNegativeNumber, "a number of 0 or more"); }
+CLI::Validator positive() { return in_words(CLI::PositiveNumber, "a positive number"); }
+
 void OrientationOptions::add_options(CLI::App& sub, const std::string& what_for, const std::string& of_what) {
   add_option(sub, "--orientation R", turns, what_for);
   add_option(sub, "--orientation-of NAME", of, of_what + " that --orientation is for, if there are several");
@@ -67,11 +78,11 @@ void SearchLimits::add_options(CLI::App& sub, const std::string& search) {
   sub.add_option("--threads", threads, "Number of threads; 0: one for each core")->capture_default_str();
   add_option(sub, "--max-boxes N", max_boxes,
              fmt::format("End {} after N processed boxes; {}", search, default_text(static_cast<double>(max_boxes))))
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   add_option(sub, "--max-found N", max_found,
              fmt::format("End {} when it has found N boxes, proven or undecided; {}", search,
                          default_text(static_cast<double>(max_found))))
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   add_option(sub, "--time-limit SECONDS", time_limit,
              fmt::format("After SECONDS, end {} and the work that follows it; {}", search, default_text(time_limit)));
   add_option(sub, "--memory-limit BYTES", memory_limit,
@@ -96,7 +107,7 @@ void add_threads(CLI::App& sub, int& threads) {
 }
 
 void add_time_limit(CLI::App& sub, double& seconds, const std::string& end) {
-  add_option(sub, "--time-limit SECONDS", seconds, end + "; 0: no limit (default)")->check(CLI::NonNegativeNumber);
+  add_option(sub, "--time-limit SECONDS", seconds, end + "; 0: no limit (default)")->check(not_negative());
 }
 
 void add_analysis_limits(CLI::App& sub, int& threads, double& seconds) {

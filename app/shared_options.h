@@ -45,6 +45,10 @@ CLI::Option* add_option(CLI::App& sub, const std::string& words, Value& value, c
   return option;
 }
 
+/// As CLI::NonNegativeNumber and CLI::PositiveNumber, whose messages give the largest double in 309 digits.
+CLI::Validator not_negative();
+CLI::Validator positive();
+
 /// --orientation and --orientation-of, which may be without effect.
 struct OrientationOptions {
   std::string turns, of;

@@ -53,7 +53,7 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
   command.limits.add_options(sub, "the search");
   add_option(sub, "--max-solutions N", command.max_solutions,
              "End the search when N boxes are proven; boxes about the same isolated solution count once; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative());
   add_option(sub, "--digits N", command.digits,
              "Give isolated solutions with N proven decimals; 0: no more digits than their boxes show")
       ->check(CLI::Range(0, 1000, "a number from 0 to 1000"));

@@ -135,7 +135,7 @@ void add_verify(CLI::App& program, Action& action) {
   add_option(*sub, "--sample N", command->sample,
              "Check only N boxes, chosen at random each time, and leave out the proof that no solution is missing;\n"
              "for files that take too long to check completely; 0: check all (default)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->excludes("--require-proof");
   add_time_limit(*sub, command->time_limit, "End the check after SECONDS");
   sub->footer(

@@ -137,7 +137,7 @@ def arguments(name, model, folder, rng):
         if model.facts().get("inputs"):
             words += ["--set", rng.choice(SETS)]
         kept = ["--checkpoint", str(folder / "kept")]
-        extras = [[], [], ["--proof"], ["--digits", "30"], kept, ["--keep-sheets"], ["--area"]]
+        extras = [[], [], ["--proof"], ["--digits", "30"], kept, ["--area"]]
         extra = rng.choice(extras)
         return words + (extra if extra != ["--area"] or "boundary" in words else [])
     if name == "solve-boundary":

@@ -234,6 +234,10 @@ void BallMaker::limit_orientation() {
 }
 
 Ball BallMaker::make() {
+  if (symbolic::definition(question_.set).of_parts)
+    throw error(
+        fmt::format("the set {} has parts, each with equations of its own", symbolic::definition(question_.set).name),
+        "a set that one system of equations describes, such as forward or inverse");
   ball_.room = std::numeric_limits<double>::infinity();
   if (options_.in.empty())
     throw error("the ball has no coordinates", "one or more of the model's coordinates, as in --in x,y");

@@ -62,9 +62,10 @@ void choose_robot(const System& system, const Box& box, symbolic::Mechanism& mod
   model.set_source_text(symbolic::to_model(model));
 }
 
+// Of an infinite radius, all of the question.
 study::Question within(const Clearance& clearance, double radius) {
   study::Question question = clearance.ball.question;
-  question.model = clearance.ball.within(decimal(radius));
+  if (std::isfinite(radius)) question.model = clearance.ball.within(decimal(radius));
   return question;
 }
 

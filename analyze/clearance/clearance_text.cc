@@ -58,6 +58,7 @@ Json json_about(const Ball& ball) {
 
 std::string what_of(const study::Question& q) {
   if (!q.set) return "solution";
+  if (q.set == symbolic::SingularitySet::cspace) return "configuration";
   return symbolic::definition(q.set).of_requirements ? "limit of a requirement" : "singularity";
 }
 

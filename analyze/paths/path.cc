@@ -220,11 +220,14 @@ Path PathFinder::Search::find(const Box& from, const Box& to, solve::Control& co
   }
   const auto known = [](const std::vector<int>& signs) { return std::ranges::find(signs, 0) == signs.end(); };
   const PathSpace::State goal = space_.state(ends.b);
+  const bool of_requirements = options_.avoid == Avoid::requirements;
   if (!known(ends.signs) || !known(there)) {
-    path.reason = "an end is singular, or too near a singularity to be distinguished from one";
+    path.reason = of_requirements ? "an end is at a limit of a requirement, or too near one to be distinguished from it"
+                                  : "an end is singular, or too near a singularity to be distinguished from one";
   } else if (ends.signs != there) {
     path.status = Path::Status::separated;
-    path.reason = "a determinant, or a factor of it, has opposite signs at the ends";
+    path.reason = of_requirements ? "a function that is 0 only at limits of requirements has opposite signs at the ends"
+                                  : "a determinant, or a factor of it, has opposite signs at the ends";
   } else if (!ends.state.inside || !goal.inside) {
     path.reason =
         space_.distances().tests.empty()

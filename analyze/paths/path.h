@@ -87,7 +87,7 @@ class PathFinder {
 
   /// In the box: the signs that separate configurations, 0 where one is not proven.
   struct Sign {
-    Avoid of;            ///< forward: det L_y, inverse: det L_z
+    Avoid of;            ///< forward: det L_y, inverse: det L_z, requirements: det R
     std::string factor;  ///< of that determinant; empty: itself
     int sign;
   };

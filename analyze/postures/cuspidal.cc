@@ -11,6 +11,7 @@
 
 #include "corank/analyze/clearance/json.h"
 #include "corank/kinematics/equations/six_joints.h"
+#include "corank/result/values/words.h"
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/model/evaluate.h"
 #include "corank/symbolic/model/model_file.h"
@@ -284,17 +285,18 @@ Cuspidality cuspidality(const study::Question& question, const CuspidalOptions& 
 std::string to_text(const Cuspidality& c, const std::string& model) {
   std::string text = fmt::format("{}: ", model);
   if (c.cuspidal == false) return text + fmt::format("not cuspidal, proven: {}\n", c.reason);
+  const std::string poses = result::counted(c.poses, "pose") + " tried";
   if (!c.cuspidal) {
-    text += fmt::format("open whether it is cuspidal: {}\n", c.reason);
-    return text + fmt::format("{} poses tried, at most {} postures, {:.1f} s\n", c.poses, c.most, c.seconds);
+    text += fmt::format("open whether it is cuspidal, without {}: {}\n", in_words(c.of), c.reason);
+    return text + fmt::format("{}, at most {}, {:.1f} s\n", poses, result::counted(c.most, "posture"), c.seconds);
   }
   text += fmt::format("cuspidal, proven: two postures joined without {}\n  at\n", in_words(c.of)) + value_lines(c.given);
   if (const auto& q = c.quaternion)
     text +=
         fmt::format("    orientation, a quaternion: {:.9g}, {:.9g}, {:.9g}, {:.9g}\n", (*q)[0], (*q)[1], (*q)[2], (*q)[3]);
   text += "  from\n" + value_lines(c.from) + "  to\n" + value_lines(c.to);
-  return text + fmt::format("  path of {} pieces, radius {:.3g}\n{} poses tried, {:.1f} s\n", c.path->tube->pieces.size(),
-                            c.path->tube->radius(), c.poses, c.seconds);
+  return text + fmt::format("  path of {}, radius {:.3g}\n{}, {:.1f} s\n",
+                            result::counted(c.path->tube->pieces.size(), "piece"), c.path->tube->radius(), poses, c.seconds);
 }
 
 std::string to_json(const Cuspidality& c, const std::string& model, const std::string& file) {

@@ -159,8 +159,8 @@ def clearance(
     Args:
         at: the centre of the ball, and other coordinates that keep a value. Angles are in radians: corank.degrees(15).
         within: the coordinates in which the ball lies; one radian counts like one unit of length.
-        set: the set that the ball avoids; None: "forward". "requirements": the configurations at which one of the
-            mechanism's requirements reaches its limit (with_requirements()).
+        set: the set that the ball avoids, any but "boundary"; None: "forward". "requirements": the configurations at which
+            one of the mechanism's requirements reaches its limit (with_requirements()).
         ranges: ranges of coordinates instead of the model's: for a mode, or an angle that may move.
         orientation_range: how far the outputs' angles that `at` gives, and `orientation`, may vary.
         orientation: the orientation of a spatial robot, such as "Rz(0.2)*Ry(pi/18)".

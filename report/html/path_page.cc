@@ -103,7 +103,7 @@ std::string path_json(const PathView& view, const std::vector<std::string>& orde
   Json pieces = Json::array();
   for (std::size_t k = 0; k < tube.pieces.size(); ++k) pieces.push_back(piece(tube.pieces[k], tube.radii[k], places));
   const Json json = {{"status", to_string(view.path.status)},
-                     {"avoided", view.avoid == analyze::Avoid::both ? "forward or inverse" : to_string(view.avoid)},
+                     {"avoided", in_words(view.avoid)},
                      {"ends", {middle(view.path.from, places), middle(view.path.to, places)}},
                      {"nodes", each(tube.nodes, [&](const TubeNode& n) { return node(n, places); })},
                      {"pieces", pieces}};
@@ -132,6 +132,7 @@ std::string path_page(const symbolic::Mechanism& mechanism, const PathView& view
   page["status"] = to_string(view.path.status);
   put_facts(page, mechanism, view);
   page["signs"] = if_any(signs_html(view));
+  page["avoided"] = in_words(view.avoid);
   page["waypoints"] = waypoints_html(view, mechanism);
   page["command"] = options.command;
   page["file"] = if_any(options.file);

@@ -34,7 +34,7 @@ PathView path_view(const analyze::PathFinder& finder, const analyze::Path& path)
 /// Of the path that proves it. `robot`: with a path.
 PathView cuspidal_view(const analyze::Cuspidality& robot);
 
-/// A JSON object for the page's script: "status", the singularities "avoided", the "ends" and, of a tube, "nodes", "pieces"
+/// A JSON object for the page's script: "status", what is "avoided", the "ends" and, of a tube, "nodes", "pieces"
 /// and "radii", in the variables `order` (System::variables' names). Throws std::invalid_argument where the view has none of
 /// such a name.
 std::string path_json(const PathView& view, const std::vector<std::string>& order);

@@ -123,10 +123,13 @@ std::string signs_html(const PathView& view) {
       "<tbody>";
   for (std::size_t k = 0; k < view.signs[0].size(); ++k) {
     const auto &a = view.signs[0][k], &b = view.signs[1][k];
-    const std::string matrix = fmt::format("det <i>L<sub>{}</sub></i>", a.of == Avoid::forward ? "y" : "z");
+    const std::string matrix = a.of == Avoid::requirements ? "det <i>R</i>"
+                               : a.of == Avoid::forward    ? "det <i>L<sub>y</sub></i>"
+                                                           : "det <i>L<sub>z</sub></i>";
+    const std::string meaning = a.of == Avoid::requirements ? " <small>0 where a requirement reaches its limit</small>" : "";
     const bool unlike = a.sign * b.sign < 0;
     html += fmt::format("<tr{}><th>{}</th><td>{}</td><td>{}</td></tr>", unlike ? " class=\"unlike\"" : "",
-                        a.factor.empty() ? matrix
+                        a.factor.empty() ? matrix + meaning
                                          : fmt::format("<code>{}</code> <small>a factor of {}</small>",
                                                        symbolic::html_text(a.factor), matrix),
                         sign(a.sign), sign(b.sign));

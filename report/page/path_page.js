@@ -79,7 +79,7 @@ class PathShow {
     const how = moved
       ? "A point of the proven tube, found by Newton’s method."
       : "Newton’s method found no point of the tube here.";
-    this.text.innerHTML = `<p class="headline">piece ${groupedText(piece + 1)} of ${groupedText(count)} · no ${this.avoided} singularity within ${numberText(
+    this.text.innerHTML = `<p class="headline">piece ${groupedText(piece + 1)} of ${groupedText(count)} · no ${this.avoided} within ${numberText(
       this.curve.pieces[piece].radius,
       3,
     )}</p>${coordinateTable(this.model, values)}<p class="fine">${how}</p>`;

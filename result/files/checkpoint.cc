@@ -12,6 +12,7 @@
 #include <streambuf>
 
 #include "corank/result/files/output_file.h"
+#include "corank/result/files/source_group.h"
 #include "corank/result/values/words.h"
 #include "corank/symbolic/model/text_file.h"
 
@@ -155,6 +156,14 @@ Checkpoint parse(const std::filesystem::path& path, std::string_view bytes, cons
   return checkpoint;
 }
 
+std::string why_without_search(const Hdf5Reader& file) {
+  if (const std::string other = other_kind_words(file); !other.empty()) return "this is not a corank result" + other;
+  return file.attribute<std::int64_t>("/", "complete") != 0
+             ? "this result is complete: there is no search to go on with; expected a checkpoint, or a result that a limit "
+               "ended"
+             : "this result does not hold the state of its search; expected a checkpoint, or a result that does";
+}
+
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& path, const std::string& version, const Checkpoint& checkpoint,
@@ -192,10 +201,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
     if (in && std::string_view(first.data(), first.size()) == kHdf5Signature) {
       in.close();
       const Hdf5Reader file(path.string(), Contents::search);
-      if (!file.has(kArray))
-        refuse(path,
-               "this result does not hold the state of a search; expected a result that a limit ended, or one made by "
-               "corank solve --keep-sheets");
+      if (!file.has(kArray)) refuse(path, why_without_search(file));
       const auto data = file.vector<std::uint8_t>(kArray);
       bytes.assign(data.begin(), data.end());
     } else {

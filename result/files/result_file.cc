@@ -184,7 +184,7 @@ class ResultReader {
  public:
   explicit ResultReader(Hdf5Reader file, Reading reading = {}) : file_(std::move(file)), reading_(std::move(reading)) {
     if (!file_.has_attribute("/", "format") || file_.attribute<std::string>("/", "format") != kFormat)
-      file_.fail("this is not a corank result");
+      file_.fail("this is not a corank result" + other_kind_words(file_));
     format_ = file_.attribute<std::int64_t>("/", "format_version");
     if (format_ < kOldest || format_ > kFormatVersion)
       file_.fail("format version " + std::to_string(format_) + "; this corank reads versions " + std::to_string(kOldest) +

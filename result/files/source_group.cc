@@ -29,6 +29,14 @@ void write_certificate(const std::filesystem::path& path, const CertificateKind&
   target.finish();
 }
 
+std::string other_kind_words(const Hdf5Reader& file) {
+  if (!file.has_attribute("/", "format")) return "";
+  const auto format = file.attribute<std::string>("/", "format");
+  for (const CertificateKind& kind : {kShapeKind, kPiecesKind, kPathKind, kMapKind})
+    if (format == kind.format) return fmt::format(", but a certificate of {}, which corank verify reads", format);
+  return "";
+}
+
 void read_source(const Hdf5Reader& file, const CertificateKind& kind, ModelSource& source) {
   if (!file.has_attribute("/", "format") || file.attribute<std::string>("/", "format") != kind.format)
     file.fail(std::string("this is not a ") + kind.format);

@@ -22,6 +22,8 @@ void write_certificate(const std::filesystem::path& path, const CertificateKind&
                        const Ended& in_haste, const std::function<void(Hdf5Writer&)>& write);
 /// Refuses files of another kind or version.
 void read_source(const Hdf5Reader& file, const CertificateKind& kind, ModelSource& source);
+/// Of a file of one of these kinds, what it is and how it is read: ", but a certificate of corank map, …"; else nothing.
+std::string other_kind_words(const Hdf5Reader& file);
 /// Reads the source, and then what `read` reads.
 template <class File, class Read>
 File read_certificate(const std::filesystem::path& path, const CertificateKind& kind, const Read& read) {

@@ -17,6 +17,12 @@ Expression node_of(Kind kind, std::vector<Expression>& operands) {
   return result;
 }
 
+// "0", "0.0", "0e3".
+bool is_written_as_zero(const Expression& e) {
+  const std::string text = e.text();
+  return e.kind() == Kind::number && text.substr(0, text.find('e')).find_first_not_of("0.") == std::string::npos;
+}
+
 }  // namespace
 
 void ExpressionBuilder::operand(Expression e) {
@@ -91,6 +97,8 @@ void ModelBuilder::finish_tolerance(ToleranceForm form, const std::string& perce
   }
   // Of a number that is written with a minus the share is negative.
   const Expression size = first.kind() == Kind::negation ? first.operands()[0] : first;
+  if (form == ToleranceForm::percent && is_written_as_zero(size))
+    throw ModelError(size.where(), "a tolerance in percent of 0 has width 0", "a width, such as 0 ± 0.01");
   const Expression change = form == ToleranceForm::percent ? size * Expression::number(percent) / 100 : values.at(1);
   tolerance = {first - change, first + change};
   values = {first};

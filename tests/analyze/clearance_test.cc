@@ -302,6 +302,12 @@ TEST(Clearance, RefusesACentreWithoutAConfiguration) {
                symbolic::ModelError);
 }
 
+TEST(Clearance, RefusesASetOfParts) {
+  study::Question boundary = model("dextar.cuik");
+  boundary.set = symbolic::SingularitySet::boundary;
+  EXPECT_THROW(clearance_of(boundary, {.at = {{"J3x", "0.5"}, {"J3y", 1}}, .in = {"J3x", "J3y"}}), symbolic::ModelError);
+}
+
 TEST(Clearance, IsTheSameForAnyNumberOfThreads) {
   const study::Question question = model("planar/3rpr.cuik");
   const BallOptions ball{.at = {{"pose_x", "0.8"}, {"pose_y", "0.5"}, {"pose_phi", "0.1"}}, .in = {"pose_x", "pose_y"}};
@@ -348,6 +354,20 @@ TEST(Claims, AreVerifiedAndFailWhereTheyAreFalse) {
   result::Result tampered = claim_free(wrong, {}, control);
   tampered.cover = free.cover;
   EXPECT_FALSE(result::verify(tampered).complete());
+}
+
+TEST(Claims, ThatThereIsNoSingularityAtAllAreVerified) {
+  const study::Question arm = {.model = symbolic::parse_model("[SYSTEM VARS]\n  x :\n  q ~\n[SYSTEM EQS]\n  x = cos(q);\n"
+                                                              "[INPUTS] q\n[OUTPUTS] x\n",
+                                                              "arm"),
+                               .set = symbolic::SingularitySet::forward};
+  const Clearance c = clearance_of(arm, {.at = {{"q", 1}}, .in = {"q"}});
+  ASSERT_TRUE(c.nearest.empty);
+  solve::Control control;
+  const result::Result free = claim_free(c, {}, control);
+  EXPECT_TRUE(free.cover.boxes.empty());
+  EXPECT_TRUE(result::verify(free).complete());
+  EXPECT_FALSE(claim_nearest(c, control));
 }
 
 }  // namespace

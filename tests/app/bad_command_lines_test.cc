@@ -10,6 +10,7 @@
 namespace corank::app {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -28,6 +29,7 @@ void expect_refused(const Words& words, int status, const std::string& expected)
   EXPECT_THAT(outcome.err, HasSubstr(expected));
   EXPECT_THAT(outcome.err, StartsWith("corank: "));
   EXPECT_THAT(outcome.err, Not(HasSubstr("bug in corank")));
+  EXPECT_THAT(outcome.err, Not(ContainsRegex("[0-9]{30}")));  // of the largest double
   EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
   EXPECT_EQ(outcome.out, "");
 }

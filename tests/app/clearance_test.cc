@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::vector<std::string> kBallOfDextar = {"--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y"};
 
@@ -68,6 +69,12 @@ TEST(Clearance, WritesWhatVerifyConfirms) {
   EXPECT_EQ(nearest.status, 4) << nearest.out << nearest.err;
 }
 
+TEST(Clearance, CallsTheNearestConfigurationOfCspaceNoSingularity) {
+  const Outcome outcome = run_corank(of("dextar", with(kBallOfDextar, {"--set", "cspace"})));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("nearest configuration found"), Not(HasSubstr("singularity"))));
+}
+
 TEST(Clearance, KeepsBoundsThatHoldWhereALimitEndsIt) {
   const Outcome outcome =
       run_corank(of("dextar", with(kBallOfDextar, {"--max-boxes", "3", "--precision", "1e-5", "--json"})));
@@ -103,6 +110,7 @@ TEST(Clearance, SaysWhatItExpects) {
        1,
        "no orientation in space"},
       {{"--in", "J3x,J3y"}, 2, "--at is required"},
+      {{"--at", "J3x=0.5,J3y=1", "--in", "J3x,J3y", "--set", "boundary"}, 2, "boundary not in {cspace,forward,"},
   };
   for (const auto& [args, status, said] : cases) {
     const Outcome outcome = run_corank(of("dextar", args));

@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<std::string> dextar(const std::string& to_mode, const std::vector<std::string>& more = {}) {
   std::vector<std::string> args{"path", model("dextar"), "--from",        "J3x=0.5,J3y=1", "--from-mode",
@@ -91,6 +92,15 @@ TEST(Path, RefusesWhatMakesNoSense) {
   EXPECT_THAT(run("J3x=9,J3y=1").err, HasSubstr("there is no configuration with these values"));
   EXPECT_EQ(run("J3x").status, 2);
   EXPECT_EQ(run("J3x=y,J3y=1").status, 1);
+}
+
+TEST(Cuspidal, NamesTheKindOfSingularitiesAndHowToAskForTheOther) {
+  const std::vector<std::string> arm = {"cuspidal", model("serial/orthogonal_3r_section"), "--poses", "1"};
+  const Outcome forward = run_corank(arm), inverse = run_corank(with(arm, {"--of", "inverse"}));
+  EXPECT_EQ(forward.status, 0) << forward.err;
+  EXPECT_THAT(forward.out, AllOf(HasSubstr("open whether it is cuspidal, without forward singularities: "),
+                                 HasSubstr("1 pose tried, at most 1 posture, "), HasSubstr("\n--of inverse asks ")));
+  EXPECT_THAT(inverse.out, AllOf(HasSubstr("without inverse singularities"), Not(HasSubstr("--of"))));
 }
 
 TEST(Path, EndsByItsTimeLimit) {

@@ -186,6 +186,23 @@ TEST(Refine, PicturesCutSheetsThatAreWhole) {
   EXPECT_EQ(read_text(whole + ".svg"), read_text(cut + ".svg"));
 }
 
+TEST(Resume, SaysWhyAFileHoldsNoSearchToGoOnWith) {
+  const TemporaryFolder folder;
+  const std::string whole = folder.file("whole.h5"), path = folder.file("path.h5");
+  ASSERT_EQ(run_corank({"solve", model("three_slider"), "--set", "forward", "-o", whole}).status, 0);
+  EXPECT_THAT(run_corank({"solve", "--resume", whole}).err,
+              HasSubstr("this result is complete: there is no search to go on"));
+  ASSERT_EQ(run_corank({"path", model("dextar"), "--from", "J3x=0.5,J3y=1", "--from-mode", "1", "--to", "J3x=0.6,J3y=1",
+                        "--to-mode", "1", "-o", path})
+                .status,
+            0);
+  for (const Words& more : {Words{"--resume", path}, Words{"--refine", path, "-o", folder.file("cut.h5")}}) {
+    const Outcome outcome = run_corank(with({"solve"}, more));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("not a corank result, but a certificate of corank path, which corank verify reads"));
+  }
+}
+
 class Kept : public testing::Test {
  protected:
   void SetUp() override {

@@ -133,6 +133,22 @@ TEST(PathWords, ShowTheSignsThatSeparateTheEnds) {
   EXPECT_EQ(waypoints_html(a.view, a.mechanism), "");
 }
 
+TEST(PathWords, NameWhatSeparatesTheEndsWhereARequirementDoes) {
+  const study::Question arm{.model = symbolic::parse_model("[SYSTEM VARS]\n  y :\n  q ~\n[SYSTEM EQS]\n  y = sin(q);\n"
+                                                           "[INPUTS] q\n[OUTPUTS] y\n[REQUIREMENTS]\n  y <= 1/5;\n",
+                                                           "arm")};
+  solve::Control control;
+  analyze::PathFinder finder(arm, {.avoid = analyze::Avoid::requirements});
+  const Box low = finder.end({{"q", 0}}, 0, "from", control), high = finder.end({{"q", 1}}, 0, "to", control);
+  const PathView view = path_view(finder, finder.find(low, high, control));
+  ASSERT_EQ(view.path.status, analyze::Path::Status::separated);
+  EXPECT_EQ(view.path.reason, "a function that is 0 only at limits of requirements has opposite signs at the ends");
+  EXPECT_THAT(signs_html(view), AllOf(HasSubstr("0 where a requirement reaches its limit"),
+                                      HasSubstr("a factor of det <i>R</i>"), Not(HasSubstr("<i>L"))));
+  const std::string page = path_page(arm.model, view, {});
+  EXPECT_TRUE(page.find("zero only at limits of requirements") != std::string::npos);
+}
+
 TEST(PathPage, IsOneFileThatSaysWhatItDoesNotDraw) {
   const Asked a = joined();
   const std::string page = path_page(a.mechanism, a.view, {}, {.command = "corank path x", .missing = {"C-space"}});

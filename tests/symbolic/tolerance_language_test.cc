@@ -65,6 +65,9 @@ TEST(ToleranceLanguage, RefusesWhatCannotBe) {
   using testing::HasSubstr;
   EXPECT_THAT(fault(with_constants("l := 1 ± -0.1")), HasSubstr("is empty"));
   EXPECT_THAT(fault(with_constants("l := in [2, 1]")), HasSubstr("is empty"));
+  for (const char* zero : {"0", "-0.0", "0e3"})
+    EXPECT_THAT(fault(with_constants("l := " + std::string(zero) + " ± 1%")), HasSubstr("m.cuik:2")) << zero;
+  EXPECT_THAT(fault(with_constants("l := 0 ± 1%")), HasSubstr("in percent of 0 has width 0; expected a width"));
   EXPECT_THAT(fault(with_constants("l := in [2 1]")), HasSubstr("m.cuik:2"));
   EXPECT_THAT(fault(with_constants("l := 1 ±")), HasSubstr("m.cuik:2"));
   for (const char* percent : {"2*5%", "1/2 %"})
