@@ -78,6 +78,14 @@ TEST(Aspects, OfAnArmWithoutALinkAreNeitherCountedNorVerified) {
   EXPECT_THROW(aspects_of(study::read_model(path, file.constants).mechanism), symbolic::DeterminantVanishes);
 }
 
+TEST(Aspects, SayThatThereIsNoConfiguration) {
+  const std::string path = CORANK_SOURCE_DIR "/models/dextar.cuik";
+  const study::Question dextar{.model = study::read_model(path, {{"d", "9"}}).mechanism};
+  const std::string text = to_text(dextar, aspects_of(dextar.model));
+  EXPECT_THAT(text, testing::HasSubstr("There is no configuration in the search domain."));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("A configuration of each aspect")));
+}
+
 // Limits of lengths count as the sines that are 0 where it is singular do.
 TEST(Aspects, WithinLimitsOfLengthsDoNotDependOnTheirUnit) {
   for (const std::string unit : {"1/1000", "1", "1000000"}) {
