@@ -7,6 +7,7 @@
 #include "corank/analyze/robots/same_strata.h"
 #include "corank/certify/inertia.h"
 #include "corank/core/rounding.h"
+#include "corank/symbolic/sets/determinant_factors.h"
 
 namespace corank::analyze {
 namespace {
@@ -120,8 +121,12 @@ Aspects aspects_of_robots(study::Question question, const AspectsOptions& option
     return obstacle_of(*robots, own_ends, {.threads = options.threads, .parts = parts}, control);
   };
   const AspectsOptions counting{.threads = options.threads, .halvings = options.halvings, .rounds = options.rounds};
-  const auto numbers = [&](const study::Question& one) {
-    return exact_numbers_of(count(aspect_equations(one, false, false, ended), counting, control));
+  const auto numbers = [&](const study::Question& one) -> ExactNumbers {
+    try {
+      return exact_numbers_of(count(aspect_equations(one, false, false, ended), counting, control));
+    } catch (const symbolic::DeterminantVanishes&) {  // of this robot
+      return {};
+    }
   };
   result.robots = examine(question, exact_numbers_of(result), obstacle, numbers, control);
   return result;

@@ -150,9 +150,11 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   };
   text += fmt::format("  det L_y = 0 {}\n  det L_z = 0 {}\n", zeros(a.forward_factors), zeros(a.inverse_factors));
   if (a.cusps) text += fmt::format("  cusps           {}\n", cusps_line(*a.cusps));
-  text += "A configuration of each aspect:\n";
   constexpr std::size_t kMostShown = 20;
   const std::size_t known = a.aspects.representatives.size();
+  if (known > 0) text += "A configuration of each aspect:\n";
+  if (a.product_of.empty() && a.aspects.at_most == 0 && a.aspects.cells == 0)
+    text += "There is no configuration in the search domain.\n";
   for (std::size_t k = 0; k < std::min(known, kMostShown); ++k) {
     text += fmt::format("  {:>3}", k + 1);
     for (const CoordinateValue& v : values(a.system, a.aspects.representatives[k], false))

@@ -21,6 +21,7 @@
 #include "corank/solve/search/solve.h"
 #include "corank/solve/step/product_search.h"
 #include "corank/symbolic/algebra/exact_value.h"
+#include "corank/symbolic/sets/determinant_factors.h"
 
 namespace corank::analyze {
 namespace {
@@ -309,11 +310,15 @@ std::optional<int> ParameterMapper::Parts::answer_at(const Box& sides, solve::Co
     const Components found = topology(at, {}, own).components;
     return found.exact() ? std::optional(found.at_least) : std::nullopt;
   }
-  const Aspects found = aspects(at, {.requirements = false}, own);
-  const Pieces& pieces = question.answer == MapAnswer::aspects          ? found.aspects
-                         : question.answer == MapAnswer::assembly_modes ? found.assembly_modes
-                                                                        : found.working_modes;
-  return found.reason.empty() && pieces.exact() ? std::optional(pieces.at_least) : std::nullopt;
+  try {
+    const Aspects found = aspects(at, {.requirements = false}, own);
+    const Pieces& pieces = question.answer == MapAnswer::aspects          ? found.aspects
+                           : question.answer == MapAnswer::assembly_modes ? found.assembly_modes
+                                                                          : found.working_modes;
+    return found.reason.empty() && pieces.exact() ? std::optional(pieces.at_least) : std::nullopt;
+  } catch (const symbolic::DeterminantVanishes&) {  // here
+    return std::nullopt;
+  }
 }
 
 ParameterMap ParameterMapper::assemble(std::vector<MapTile> tiles) const {

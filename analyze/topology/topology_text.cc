@@ -61,9 +61,12 @@ result::ShapeFile to_file(const study::Question& question, const Topology& topol
 }
 
 std::string to_text(const study::Question& question, const Topology& t) {
-  std::string text = fmt::format("{}, {}\n", question.model.name(),
-                                 question.model.is_plain_system() ? "solutions of the system" : "C-space");
+  const bool is_plain = question.model.is_plain_system();
+  std::string text = fmt::format("{}, {}\n", question.model.name(), is_plain ? "solutions of the system" : "C-space");
   if (t.robots) text += robots_text(*t.robots);
+  if (t.components.at_most == 0)
+    return text + fmt::format("  there is no {} in the search domain\n", is_plain ? "solution" : "configuration") +
+           stopped_line(t.stopped);
   text += fmt::format("  dimension             {}\n", t.dimension);
   text += fmt::format("  components            {}\n", components_text(t.components));
   if (t.dimension > 0 && t.ends.empty())

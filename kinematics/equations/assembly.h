@@ -63,7 +63,7 @@ struct Assembly {
 /// coordinates, or more than 500 moving bodies.
 Assembly assemble(const Robot& robot);
 
-/// How many of a system's equations follow from the others, to first order, at solutions found by Newton's method from
+/// How many of a system's equations follow from the others, to first order, at solutions within its ranges, found from
 /// random points (of fixed seeds): their number less their Jacobian's rank. Nothing where none of the tries ends in a
 /// solution, or the variables are hundreds.
 std::optional<int> sampled_redundancy(const System& system);

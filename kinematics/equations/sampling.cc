@@ -60,7 +60,7 @@ class Numeric {
 
 std::optional<int> sampled_redundancy(const System& system) {
   constexpr int kTries = 30, kEnough = 4, kSteps = 50;
-  constexpr double kZero = 1e-10, kRank = 1e-7, kFar = 1e6;
+  constexpr double kZero = 1e-10, kNear = 1e-9, kRank = 1e-7, kFar = 1e6;
   constexpr Eigen::Index kMostVariables = 300;  // dense matrices: beyond, decompositions take many seconds
   const auto n = static_cast<Eigen::Index>(system.variables.size()), m = static_cast<Eigen::Index>(system.equations.size());
   if (n > kMostVariables) return std::nullopt;
@@ -75,6 +75,15 @@ std::optional<int> sampled_redundancy(const System& system) {
   std::vector<Numeric> equations, inequalities;
   for (const Polynomial& f : system.equations) equations.emplace_back(f, units);
   for (const Polynomial& f : system.inequalities) inequalities.emplace_back(f, units);
+  // Outside its ranges a robot may pass configurations that it never takes. A variable with one value counts as free.
+  const auto is_inside = [&](const VectorXd& x) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Interval& domain = system.variables[i].domain;
+      const double value = x[i] * units[i], near = kNear * units[i];
+      if (domain.width() > 0 && (value < domain.lo() - near || value > domain.hi() + near)) return false;
+    }
+    return std::ranges::all_of(inequalities, [&](const Numeric& g) { return g.value(x) > -kNear; });
+  };
   std::mt19937 random(1);
   std::optional<int> redundancy;
   for (int attempt = 0, found = 0; attempt < kTries && found < kEnough; ++attempt) {
@@ -95,8 +104,7 @@ std::optional<int> sampled_redundancy(const System& system) {
       if (residual < kZero || m == 0 || !(residual < kFar)) break;
       x -= least_squares(jacobian, f, kRank).x;
     }
-    const bool inside = std::ranges::all_of(inequalities, [&](const Numeric& g) { return g.value(x) > -1e-9; });
-    if (!(residual < kZero) || !inside) continue;
+    if (!(residual < kZero) || !is_inside(x)) continue;
     ++found;
     if (m > 0) {
       const VectorXd values = singular_values(jacobian);

@@ -171,7 +171,7 @@ class Decomposer {
   }
 
   struct Factors {
-    bool fail = false;  // the determinant vanishes everywhere, or they are not all found in time
+    bool fail = false;  // the determinant vanishes everywhere, perhaps of one robot, or they are not all found in time
     std::vector<Expression> conditions{};
   };
 
@@ -191,6 +191,7 @@ class Decomposer {
         for (const RationalPolynomial& f : *simple) {
           if (f.size() > (matrix_.is_explicit() ? kMostTermsInJoints : kMostConditionTerms)) return std::nullopt;
           auto condition = matrix_.condition(f);
+          if (!condition && !space_.vanishes_nowhere(matrix_.expression(f))) return Factors{.fail = true};
           if (condition && !space_.vanishes_nowhere(*condition)) result.conditions.push_back(std::move(*condition));
         }
       }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/velocity/known_values.h"
 
@@ -18,13 +19,19 @@ std::size_t place_of(const Expression& e, std::size_t known, std::vector<Express
   return list.size() - 1;
 }
 
+// Of a factor without a coordinate: is it 0, or can its value not be told from 0? Within tolerances it is no one robot's.
+bool may_be_zero(const Mechanism& mechanism, const Expression& constant) {
+  return mechanism.toleranced_in(constant).empty() &&
+         exact_value(mechanism, constant, constant.text()).sign().value_or(0) == 0;
+}
+
 std::vector<Expression> factors_of(const Mechanism& mechanism, const ExpressionMatrix& matrix,
                                    const std::vector<Expression>& phi, const Ended& ended,
                                    std::vector<Expression>* constants) {
   ExactMatrix m(mechanism, matrix, phi);
   m.put_into_free_coordinates(ended);
   m.eliminate_numbers();
-  const auto vanishing = [&]() -> ModelError {
+  const auto vanishing = [&]() -> DeterminantVanishes {
     return {{mechanism.name(), 0, 0},
             "the determinant vanishes everywhere",
             "a mechanism with configurations that are not singular"};
@@ -39,17 +46,23 @@ std::vector<Expression> factors_of(const Mechanism& mechanism, const ExpressionM
       const RationalPolynomial on_cspace = m.is_explicit() ? m.in_free_coordinates(factor, ended) : factor;
       if (on_cspace.is_zero()) throw vanishing();
       for (RationalPolynomial& f : on_cspace.factors(ended).value_or(std::vector{on_cspace})) {
-        const bool is_one = m.modulo_circles(f).is_number();  // cos² + sin²
+        const RationalPolynomial shortest = m.modulo_circles(f);
+        if (shortest.is_zero()) throw vanishing();
+        const bool is_one = shortest.is_number();  // cos² + sin²
         if (!is_one && std::ranges::find(factors, f) == factors.end()) factors.push_back(std::move(f));
       }
     }
   }
   std::vector<Expression> result;
-  for (const RationalPolynomial& factor : factors)
-    if (std::optional<Expression> condition = m.condition(factor))
+  for (const RationalPolynomial& factor : factors) {
+    if (std::optional<Expression> condition = m.condition(factor)) {
       result.push_back(std::move(*condition));
-    else if (constants != nullptr && !factor.is_number())
-      constants->push_back(m.expression(factor));
+      continue;
+    }
+    Expression constant = m.expression(factor);
+    if (may_be_zero(mechanism, constant)) throw vanishing();
+    if (constants != nullptr && !factor.is_number()) constants->push_back(std::move(constant));
+  }
   std::ranges::sort(result, [](const Expression& a, const Expression& b) { return a.text() < b.text(); });
   return result;
 }

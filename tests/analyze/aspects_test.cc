@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "corank/certify/angle.h"
+#include "corank/result/values/claim_files.h"
 #include "corank/study/model.h"
 #include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/determinant_factors.h"
 #include "corank/tests/seeds.h"
 
 namespace corank::analyze {
@@ -62,6 +64,26 @@ TEST(Aspects, DoNotDependOnTheUnitOfLength) {
     EXPECT_EQ(a.working_modes.at_least, 4) << unit;
     EXPECT_NEAR(static_cast<double>(a.aspects.cells), 3380, 100) << unit;
   }
+}
+
+// det L_z = l1 l2 sin(t2).
+TEST(Aspects, OfAnArmWithoutALinkAreNeitherCountedNorVerified) {
+  const std::string path = CORANK_SOURCE_DIR "/models/planar/arm_2r_limits.cuik";
+  const study::Question arm{.model = study::read_model(path).mechanism};
+  solve::Control control;
+  result::PiecesFile file = to_file(arm, aspects(arm, {.certificate = true}, control));
+  EXPECT_TRUE(result::verify(file).complete());
+  file.constants.push_back({"l1", "0"});
+  EXPECT_THROW(result::verify(file), symbolic::DeterminantVanishes);
+  EXPECT_THROW(aspects_of(study::read_model(path, file.constants).mechanism), symbolic::DeterminantVanishes);
+}
+
+TEST(Aspects, SayThatThereIsNoConfiguration) {
+  const std::string path = CORANK_SOURCE_DIR "/models/dextar.cuik";
+  const study::Question dextar{.model = study::read_model(path, {{"d", "9"}}).mechanism};
+  const std::string text = to_text(dextar, aspects_of(dextar.model));
+  EXPECT_THAT(text, testing::HasSubstr("There is no configuration in the search domain."));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("A configuration of each aspect")));
 }
 
 // Limits of lengths count as the sines that are 0 where it is singular do.

@@ -230,6 +230,28 @@ x^2 - c - e*y = 0;)"),
   EXPECT_GT(map.shares().at(2), 0.5);
 }
 
+// A slider-crank, at centres L = k/8: where the crank L is 0 all configurations are singular.
+TEST(ParameterMap, KnowsNoAspectsWhereADeterminantVanishes) {
+  const char* const slider = R"([CONSTANTS]
+L := 1
+M := 1
+[SYSTEM VARS]
+x : [-4, 4]
+a ~
+b ~
+[SYSTEM EQS]
+x = L*cos(a) + M*cos(b);
+L*sin(a) + M*sin(b) = 0;
+[INPUTS] a
+[OUTPUTS] x)";
+  const ParameterMap map = map_of(
+      {.question = question_of(slider), .over = {{"L", "-1/16", "15/16"}, {"M", "1", "2"}}, .answer = MapAnswer::aspects},
+      8);
+  ASSERT_EQ(map.cells.size(), 64U);
+  for (const MapCellAnswer& cell : map.cells)
+    EXPECT_EQ(cell.at_centre, cell.sides[0].mid() == 0 ? std::nullopt : std::optional(4)) << cell.sides[0].mid();
+}
+
 TEST(ParameterMap, RefusesWhatHasNoNumber) {
   const auto refused = [](MapQuestion question) { EXPECT_THROW(map_of(question), symbolic::ModelError); };
   const symbolic::Parameter a{"a", "-2", "1"}, b{"b", "-1", "1"};

@@ -14,6 +14,7 @@
 #include "corank/analyze/robots/robots_words.h"
 #include "corank/analyze/topology/topology.h"
 #include "corank/study/model.h"
+#include "corank/symbolic/sets/determinant_factors.h"
 #include "corank/tests/seeds.h"
 
 namespace corank::analyze {
@@ -220,6 +221,12 @@ TEST(AllRobots, OfWhomADeterminantVanishesAreNotAlike) {
   ASSERT_TRUE(a.robots);
   EXPECT_FALSE(a.robots->same);
   EXPECT_THAT(a.robots->obstacle, HasSubstr("factor l2"));
+  // Also where it is 0 at a corner of the tolerances.
+  const Aspects corner = aspects_within(within_tolerances("dextar.cuik", {{"l", 0.9, 0}, {"l2", 0.0625, 0.0625}}));
+  ASSERT_TRUE(corner.robots);
+  EXPECT_THAT(corner.robots->obstacle, HasSubstr("factor l2"));
+  EXPECT_THROW(aspects_within(within_tolerances("dextar.cuik", {{"l", 0.9, 0}, {"l2", 0, 0.125}})),
+               symbolic::DeterminantVanishes);
 }
 
 // C-space is two circles while 2 + d < 3 + 9/2, then one: the factor of ±t is (11/2 − d)/t, planted at random.

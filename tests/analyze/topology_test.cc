@@ -39,6 +39,13 @@ TEST(Topology, KnowsATorus) {
   EXPECT_THAT(t.genus, ElementsAre(1));
 }
 
+TEST(Topology, SaysThatThereIsNoSolution) {
+  const study::Question none{.model = study::parse_model({kSpace + "x^2+y^2+z^2 = -1;\n", "none.cuik"}).mechanism};
+  const std::string text = to_text(none, of(none.model));
+  EXPECT_THAT(text, testing::HasSubstr("there is no solution in the search domain"));
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("components")));
+}
+
 // A sphere beside a torus about it.
 TEST(Topology, TellsTheComponentsApart) {
   const Topology t = of_text(kSpace + "((x^2+y^2+z^2+15/16)^2 - 4*(x^2+y^2))*(x^2+y^2+z^2-1/16) = 0;\n");

@@ -1,6 +1,8 @@
 // What the parts of known linkages leave to move: by the count of equations, of joints, and by the rank at a configuration.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
 
@@ -43,6 +45,28 @@ TEST(Mobility, OfKnownLinkages) {
     EXPECT_EQ(read.assembly->mobility_by_rank, known.by_rank);
     EXPECT_EQ(!read.notices.empty(), known.paradoxical);
   }
+}
+
+// A scissor lift: its two sliders' links lie on each other where drive is 0, which the range excludes.
+TEST(Mobility, IsSampledWithinTheRangesOfJoints) {
+  const std::string bar = " : point A (0, 0, 0) point M (1/2, 0, 0) point T (1, 0, 0)\n";
+  const auto lift = [&](const std::string& range) {
+    return study::parse_model(
+        {"[LINKS]\nfloor : point A (0, 0, 0)\nslider : point B (0, 0, 0)\na1" + bar + "b1" + bar + "a2" + bar + "b2" + bar +
+             "top : point P (0, 0, 0)\n[JOINTS]\nprismatic drive : floor A + (1, 0, 0)  slider B + (1, 0, 0)  range " +
+             range +
+             "  actuated\nrevolute : floor A + (0, 0, 1)  a1 A + (0, 0, 1)\nrevolute : slider B + (0, 0, 1)  b1 A + (0, 0, "
+             "1)\n"
+             "revolute : a1 M + (0, 0, 1)  b1 M + (0, 0, 1)\nrevolute : a1 T + (0, 0, 1)  b2 A + (0, 0, 1)\n"
+             "revolute : b1 T + (0, 0, 1)  a2 A + (0, 0, 1)\nrevolute : a2 M + (0, 0, 1)  b2 M + (0, 0, 1)\n"
+             "revolute : b2 T + (0, 0, 1)  top P + (0, 0, 1)\nslot pin : top P + (1, 0, 0)  a2 T  range [-3/2, 3/2]\n"
+             "[OUTPUTS]\nh : position of top.P only y\n",
+         "lift.cuik"});
+  };
+  const auto has_paradox = [](const study::Model& read) {
+    return std::ranges::any_of(read.notices, [](const std::string& n) { return n.find("paradoxical") != n.npos; });
+  };
+  EXPECT_FALSE(has_paradox(lift("[1/4, 9/10]")));
 }
 
 Cover cspace(const std::string& name) {

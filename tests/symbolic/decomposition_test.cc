@@ -217,5 +217,20 @@ TEST(Decomposition, LosesNoPlantedFactorAndNoPartIsFalse) {
   EXPECT_GT(ties, in_parts / 10);
 }
 
+// det M = (p² − q²) cos a cos b.
+TEST(Decomposition, IsNoneWhereAConstantFactorIsOrMayBeZero) {
+  Mechanism arm("arm");
+  const Expression p = arm.constant("p", 2), q = arm.constant("q", 1), a = arm.angle("a"), b = arm.angle("b");
+  arm.constrain(arm.length("x", -3, 3) - sin(a) - sin(b) == 0);
+  KernelQuestion kernel{definition(SingularitySet::forward), "M", {}, {}, KernelSide::right, {}};
+  kernel.matrix.columns = {"a", "b"};
+  kernel.matrix.rows = {{p * cos(a), q * cos(b)}, {q * cos(a), p * cos(b)}};
+  kernel.matrix.roles.assign(2, Role::input);
+  kernel.where.assign(2, SourceLocation{"arm", 0, 0});
+  EXPECT_EQ(decompose(arm, kernel).size(), 2u);
+  arm.set_constant("q", 2);
+  EXPECT_TRUE(decompose(arm, kernel).empty());
+}
+
 }  // namespace
 }  // namespace corank::symbolic

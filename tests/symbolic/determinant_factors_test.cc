@@ -123,6 +123,24 @@ TEST_F(DeterminantFactors, AreOneWhereThereIsNoTime) {
   EXPECT_EQ(hurried[0].text(), all[0].text());
 }
 
+// (p² − q²)·x0: the values of p and q decide whether it is 0 everywhere; also where √2·√3 − √6 cannot be told from 0.
+TEST_F(DeterminantFactors, ThatHoldConstantsAloneAreNotZero) {
+  const Expression p = mechanism_.constant("p", 2), q = mechanism_.constant("q", 3), x = coordinates_[0];
+  const Expression r = mechanism_.constant("r", sqrt(Expression(6)));
+  const ExpressionMatrix m{.columns = {"a", "b"}, .rows = {{p * x, q * x}, {q, p}}};
+  const ExpressionMatrix roots{.columns = {"a", "b"}, .rows = {{p * x, r * x}, {r, q * q * p}}};
+  std::vector<Expression> constants;
+  EXPECT_EQ(determinant_factors(mechanism_, m, {}, &constants).size(), 1u);
+  EXPECT_EQ(constants.size(), 2u);
+  EXPECT_EQ(determinant_factors(mechanism_, roots).size(), 1u);
+  mechanism_.set_constant("q", -2);
+  EXPECT_THROW(determinant_factors(mechanism_, m), DeterminantVanishes);
+  mechanism_.set_constant("p", sqrt(Expression(2)));
+  mechanism_.set_constant("q", sqrt(Expression(3)));
+  EXPECT_EQ(determinant_factors(mechanism_, m).size(), 1u);
+  EXPECT_THROW(determinant_factors(mechanism_, roots), DeterminantVanishes);
+}
+
 TEST_F(DeterminantFactors, SayWhereADeterminantHasTooManyTerms) {
   ExpressionMatrix m;
   for (int j = 0; j < 9; ++j) m.columns.push_back("c" + std::to_string(j));
