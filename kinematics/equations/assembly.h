@@ -64,8 +64,8 @@ struct Assembly {
 Assembly assemble(const Robot& robot);
 
 /// How many of a system's equations follow from the others, to first order, at solutions within its ranges, found from
-/// random points (of fixed seeds): their number less their Jacobian's rank. Nothing where none of the tries ends in a
-/// solution, or the variables are hundreds.
+/// random points (of fixed seeds): their number less their Jacobian's rank. Where none of the tries ends in one,
+/// 0 if a solution outside shows it, else nothing; nothing either where the variables are hundreds.
 std::optional<int> sampled_redundancy(const System& system);
 
 }  // namespace corank::kinematics

@@ -85,7 +85,7 @@ std::optional<int> sampled_redundancy(const System& system) {
     return std::ranges::all_of(inequalities, [&](const Numeric& g) { return g.value(x) > -kNear; });
   };
   std::mt19937 random(1);
-  std::optional<int> redundancy;
+  std::optional<int> redundancy, outside;
   for (int attempt = 0, found = 0; attempt < kTries && found < kEnough; ++attempt) {
     VectorXd x(n);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -104,16 +104,19 @@ std::optional<int> sampled_redundancy(const System& system) {
       if (residual < kZero || m == 0 || !(residual < kFar)) break;
       x -= least_squares(jacobian, f, kRank).x;
     }
-    if (!(residual < kZero) || !is_inside(x)) continue;
-    ++found;
+    if (!(residual < kZero)) continue;
+    const bool inside = is_inside(x);
+    found += inside ? 1 : 0;
     if (m > 0) {
       const VectorXd values = singular_values(jacobian);
       rank = (values.array() > kRank * values.maxCoeff()).count();
     }
     // Special configurations are rarer than others, and have a lower rank.
     const int here = static_cast<int>(m - rank);
-    redundancy = redundancy ? std::min(*redundancy, here) : here;
+    std::optional<int>& least = inside ? redundancy : outside;
+    least = least ? std::min(*least, here) : here;
   }
+  if (!redundancy && outside == 0) return outside;  // they are independent in general
   return redundancy;
 }
 
