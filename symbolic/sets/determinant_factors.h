@@ -23,9 +23,9 @@ class DeterminantVanishes : public ModelError {
 /// coordinates that are left. Sines and cosines count as unknowns of their own: what only sin² + cos² = 1 shows to be a
 /// product stays one factor. M is brought to block triangular form first (exact_matrix.h), after rows have been eliminated
 /// by entries that are numbers, so that what is expanded and factored is small. What takes long to factor
-/// (RationalPolynomial::factors), or is not by the time `ended` says so, stays one factor. Throws
-/// DeterminantVanishes where det M vanishes at all configurations, as where a factor without a coordinate is 0, ModelError
-/// where M is not square, DeterminantTooLarge where a block has more than 16 rows, or its determinant more than 20,000 terms.
+/// (RationalPolynomial::factors), or is not by the time `ended` says so, stays one factor. Throws DeterminantVanishes where
+/// det M vanishes at all configurations, as where a factor without a coordinate is 0, ModelError where M is not square,
+/// DeterminantTooLarge where a block has more than 16 rows, or its determinant more than 20,000 terms.
 /// `constants`: where given, further factors are added to it: those without a coordinate, but for numbers. Constants with
 /// tolerances are unknowns, too, so that all of this holds for every robot.
 std::vector<Expression> determinant_factors(const Mechanism& mechanism, const ExpressionMatrix& matrix,
