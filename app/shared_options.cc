@@ -121,11 +121,13 @@ void refuse_without_effect(const CLI::App& sub, const std::vector<std::string>& 
 }
 
 void JsonOption::add(CLI::App& sub, const std::string& what, const std::string& table) {
-  option_ = sub.add_option_function<std::vector<std::string>>(
-                   "--json", [this](const std::vector<std::string>& words) { path_ = words.empty() ? "" : words.front(); },
-                   fmt::format("Write {} as JSON to PATH or, without PATH, to standard output instead of {}", what, table))
-                ->type_name("[PATH]")
-                ->expected(0, 1);
+  option_ =
+      sub.add_option_function<std::vector<std::string>>(
+             "--json",
+             [this](const std::vector<std::string>& words) { path_ = words.empty() || words[0] == "-" ? "" : words[0]; },
+             fmt::format("Write {} as JSON to PATH or, without PATH, to standard output instead of {}", what, table))
+          ->type_name("[PATH]")
+          ->expected(0, 1);
 }
 
 void JsonOption::begin(std::string& input, const std::string& name) {

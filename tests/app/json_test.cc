@@ -74,6 +74,12 @@ TEST(Json, TakesThePlaceOfTheTableWhereverTheFileStands) {
   }
 }
 
+TEST(Json, GoesToStandardOutputWhereThePathIsADash) {
+  const Outcome outcome = run_corank({"solve", model("three_slider"), "--set", "forward", "--json", "-"});
+  EXPECT_EQ(json::parse(outcome.out)["set"], "forward");
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
 TEST(Json, IsNotWrittenOverAModelOrWhereNoFileCanBe) {
   const TemporaryFolder folder;
   const std::string slider = model("three_slider"), copy = folder.write("copy.cuik", "");
