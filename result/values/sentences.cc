@@ -113,8 +113,7 @@ std::string nodes_text(const Words& words, std::size_t proven, std::size_t open,
   return complete ? "there is no node in the search domain" : "no node was found in the part that was searched";
 }
 
-// Boxes that are about a point: those on a self-motion, of which there is none in the list of points, are not; nor those
-// along another larger set, of which there is none either.
+// Boxes about the points in the list. Boxes on a self-motion, or along another larger set, have no point there.
 std::size_t with_points(const Cover& cover) {
   if (cover.points.empty()) return 0;
   return how_many(cover.boxes, [](const CoverBox& b) { return b.motion < 0 && b.verdict != Verdict::pending; });

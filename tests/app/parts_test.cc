@@ -68,6 +68,12 @@ constexpr const char* kArmOfParts =
     "revolute elbow : upper E + (0, sin(tilt), cos(tilt))  fore (0, 0, 0) + (0, 0, 1)  actuated\n"
     "[OUTPUTS]\nhand : position of fore.H\n";
 
+// Its elbow has a range and no coordinate, so the range is an inequality.
+std::string arm_with_a_range() {
+  std::string arm = kArmOfParts;
+  return arm.replace(arm.rfind("  actuated\n[OUTPUTS]"), 10, "  zero (1, 0, 0) (1, 0, 0)  range [-1, 2]");
+}
+
 // Equations are made for the constants' own values: a model of them says of which terms nothing is left.
 TEST(Parts, DeriveSaysWhatIsLeftOutOfAModel) {
   const TemporaryFolder folder;
@@ -80,18 +86,15 @@ TEST(Parts, DeriveSaysWhatIsLeftOutOfAModel) {
 // The equations of an arm have no line of their own in its author's file.
 TEST(Parts, ARangeIsNamedByItsLineAndItsJointAlsoInAStoredResult) {
   const TemporaryFolder folder;
-  std::string arm = kArmOfParts;
-  arm.replace(arm.rfind("  actuated\n[OUTPUTS]"), 10, "  zero (1, 0, 0) (1, 0, 0)  range [-1, 2]");
+  const std::string arm = folder.write("arm.cuik", arm_with_a_range());
   const std::string whole = folder.file("whole.h5"), name = "arm.cuik:9 (range of elbow)";
-  EXPECT_THAT(run_corank({"solve", folder.write("arm.cuik", arm), "--set", "cspace", "-o", whole}).out, HasSubstr(name));
+  EXPECT_THAT(run_corank({"solve", arm, "--set", "cspace", "-o", whole}).out, HasSubstr(name));
   EXPECT_THAT(run_corank({"solve", "--refine", whole, "-o", folder.file("cut.h5")}).out, HasSubstr(name));
 }
 
-// Its elbow has no coordinate, so its range is an inequality.
 TEST(Parts, AWorkspacesBoundarySaysWhereItDoesNotLook) {
   const TemporaryFolder folder;
-  std::string arm = kArmOfParts;
-  arm.replace(arm.rfind("  actuated\n[OUTPUTS]"), 10, "  zero (1, 0, 0) (1, 0, 0)  range [-1, 2]");
+  std::string arm = arm_with_a_range();
   arm.erase(arm.find("  actuated"), 10);
   const std::string file = folder.write("arm.cuik", arm);
   EXPECT_EQ(solved({file, "--set", "boundary"})["no_limits"], json({"arm.cuik:9 (range of elbow)"}));
