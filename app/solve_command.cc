@@ -41,8 +41,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
       sub, "A model with inputs and outputs needs --set, other models must not have it. Which configurations");
   add_option(sub, "--sigma S|inf", command.sigma,
              "Largest edge of a box, in lengths and in the sines and cosines of angles; inf: do not cut the sheets, the\n"
-             "proven pieces of the set; default: 1/200 of the size of a curve; inf for a surface and for more\n"
-             "dimensions, whose sheets pictures cut themselves");
+             "proven pieces of the set; default: 1/200 of the size of a curve; none for a surface and for more\n"
+             "dimensions, whose boxes may then hold parts of sheets. Pictures cut boxes themselves");
   add_option(sub, "--sigma-length S|inf", command.sigma_length, "The same for lengths only, in the model's unit");
   add_option(sub, "--sigma-angle S|inf", command.sigma_angle, "The same for the sines and cosines of angles only");
   add_option(sub, "--tolerance REL", command.tolerance,

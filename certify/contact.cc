@@ -90,12 +90,13 @@ void visit_contacts(const System& system, const Cover& cover,
   for (const CoverBox& b : cover.boxes) {
     if (b.verdict == Verdict::pending) continue;
     test.find(b.box, contacts);
+    const bool whole = spans(cover, b);
     const bool alone = b.verdict == Verdict::boundary && contacts.size() == 1;
     for (Contact& c : contacts) {
       const bool is_free = std::ranges::find(b.free, c.index) != b.free.end();
       if (is_free) {
-        c.reached = (b.verdict == Verdict::regular || alone) && test.holds_end(b.box, c);
-      } else if (int& so_far = tries[{c.with, c.index}]; alone && b.region >= 0 && so_far < kTries) {
+        c.reached = whole && (b.verdict == Verdict::regular || alone) && test.holds_end(b.box, c);
+      } else if (int& so_far = tries[{c.with, c.index}]; whole && alone && b.region >= 0 && so_far < kTries) {
         c.reached = test.crosses_end(b, cover.regions[b.region], c);
         so_far = c.reached ? kTries : so_far + 1;
       }

@@ -14,11 +14,11 @@ struct Contact {
   enum class With { lower_end, upper_end, inequality };
   With with = With::lower_end;
   int index = 0;  ///< of the variable, or of the inequality
-  /// Proven: the set has a point on that end. Theorem: for every value of its free variables in it a `regular` box holds a
-  /// solution, so for one of them that is on the end; likewise a `boundary` box that has no other contact. There a dependent
-  /// variable, too, takes the end's value where it is beyond the end for one value of the free ones and inside for
-  /// another: it is a continuous function of them (the zeros in the region are a compact graph) on a connected box.
-  /// Tried on a few boxes only.
+  /// Proven: the set has a point on that end. Theorem: for every value of its free variables in it a `regular` box that
+  /// spans() them holds a solution, so for one of them that is on the end; likewise a `boundary` box that has no other
+  /// contact. There a dependent variable, too, takes the end's value where it is beyond the end for one value of the free
+  /// ones and inside for another: it is a continuous function of them (the zeros in the region are a compact graph) on a
+  /// connected box. Tried on a few boxes only.
   bool reached = false;
 };
 

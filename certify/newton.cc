@@ -199,6 +199,7 @@ bool krawczyk(const CompiledSystem& system, const Preconditioner& p, std::span<c
 // Hypothesis (2): |I − Y·J_D(B)| r < r for some r > 0.
 bool jacobian_is_regular(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> b,
                          NewtonBuffers& w) {
+  w.slope.resize(system.entries());
   system.jacobian(b, w.slope);
   if (!w.matrix.assign_product(system, p.equations, w.slope)) return false;
   w.distance.clear();
@@ -249,6 +250,27 @@ Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::s
     }
   }
   return sheet;
+}
+
+Sheet newton_prove_in_part(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x,
+                           std::span<const Interval> near, NewtonWorkspace& workspace) {
+  CORANK_CHECK(UpwardRounding::active());
+  const std::vector<Interval> box(x.begin(), x.begin() + system.variables());
+  {
+    const NewtonWorkspace::Borrowed borrowed = workspace.take();
+    NewtonBuffers& w = *borrowed;
+    if (p.rank() == 0 || !w.matrix.set_matrix(p.y, p.rank()) || !jacobian_is_regular(system, p, box, w)) return {};
+  }
+  Sheet sheet = newton_prove(system, p, near, workspace);
+  if (!sheet.proven || !contains(box, sheet.region)) return {};
+  sheet.image = box;
+  return sheet;
+}
+
+bool Sheet::spans_image() const {
+  for (std::size_t j = 0; j < image.size(); ++j)
+    if (std::ranges::find(dependent, static_cast<int>(j)) == dependent.end() && !region[j].contains(image[j])) return false;
+  return true;
 }
 
 Interval NewtonStep::gradient_about_center(int row, std::span<const Interval> x) const {

@@ -115,7 +115,7 @@ class NewtonStep {
   bool bounded_ = false;  // Y·S and Y·F(c) are
 };
 
-/// What newton_prove shows about a box of values of the free variables.
+/// What newton_prove shows about a box of values of the free variables, or newton_prove_in_part about a box.
 struct Sheet {
   bool proven = false;
   /// The rows that the proof speaks of: all of them, or a subset (over-determined systems, self-motions).
@@ -124,6 +124,9 @@ struct Sheet {
   std::vector<int> dependent;
   std::vector<Interval> region;  ///< n: free sides as given, dependent sides inflated
   std::vector<Interval> image;   ///< n: free sides as given, dependent sides the Newton image, inside region's interior
+
+  /// Is there a zero for every value of the free variables in the image? False: newton_prove_in_part's claim.
+  bool spans_image() const;
 };
 
 /// Tries to prove, for X_F the sides of the free variables in x: for **every** value f ∈ X_F there is **exactly one**
@@ -141,6 +144,14 @@ struct Sheet {
 /// Z comes from ε-inflation of the image, at most `iterations` times; the dependent variables stay the same throughout.
 Sheet newton_prove(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x, NewtonWorkspace& w,
                    int iterations = 8);
+
+/// The same for a box x that a sheet leaves through sides of dependent variables: for every value f of the free variables
+/// in x there is **at most one** d with (f, d) in x and F(f, d) = 0, and for every f in the free sides of `region`, a part
+/// of x, there is one, in `region`. The image is x, and J has full rank at every zero of F in it. `near`: about where a zero
+/// may be; anything is valid.
+/// Theorem: (2) of newton_prove over B = x, and newton_prove in a box about `near`, whose region lies in x.
+Sheet newton_prove_in_part(const CompiledSystem& system, const Preconditioner& p, std::span<const Interval> x,
+                           std::span<const Interval> near, NewtonWorkspace& w);
 
 /// A step inside a proven sheet: the box must have the sheet's dependent sides or a part of them that is known to hold the
 /// solutions, free sides within the sheet's, and p the sheet's rows and dependents. Shrinks dependent sides only, so that

@@ -201,7 +201,7 @@ class Checker {
         }
         if (box.region < 0) return "the file has no region for it";
         const Box& region = cover_.regions[box.region];
-        std::string reason = box.motion < 0 ? check_sheet(*problem_, problem_->equations(), box, region)
+        std::string reason = box.motion < 0 ? check_sheet_or_part(*problem_, box, region)
                                             : check_on_motion(*motions_[box.motion], box, region);
         // A solution, or a configuration in the box whose kernel is larger.
         if (reason.empty() && box.point >= 0) reason = exact_->fault_in(box, box.verdict != Verdict::isolated);

@@ -331,6 +331,8 @@ PiecesReport check_pieces(const System& system, const Cover& cover, const std::v
     if (static_cast<int>(problem.equations().size()) + cover.dimension != problem.size() || cover.dimension < 1)
       fail("the set does not have the dimension that its equations leave");
     if (claims.size() != functions.size()) fail("the lists of pieces are not those of the model");
+    if (report.failures.empty() && !std::ranges::all_of(cover.boxes, [&](const CoverBox& b) { return spans(cover, b); }))
+      fail("a box has no solution for every value of its free variables");
     if (!report.failures.empty()) return;
     report.stage = "the pieces";
     const Problem reduced(system, cover.reduction, stop);

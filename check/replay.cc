@@ -289,17 +289,17 @@ class Replay {
     }
   }
 
-  // Is one solution for each value of its free variables what the box claims?
-  static bool has_sheet(const CoverBox& box) {
+  // Does its verdict rest on a region? Then it is checked besides (check/sheets.h), with the sides of eliminated variables.
+  static bool has_region(const CoverBox& box) {
     const bool claims =
         box.verdict == Verdict::regular || box.verdict == Verdict::isolated || box.verdict == Verdict::boundary;
     return claims && box.region >= 0;
   }
 
-  // Do the box's sides of eliminated variables hold their values over x? Of a sheet's box that is checked with its sheet.
+  // Do the box's sides of eliminated variables hold their values over x?
   bool holds_values(const Sides& x, int i) const {
     const CoverBox& box = cover_.boxes[i];
-    if (has_sheet(box)) return true;
+    if (has_region(box)) return true;
     return std::ranges::all_of(problem_.values(), [&](const Problem::Value& v) {
       const Variable& variable = problem_.system().variables[v.variable];
       Enclosure value = v.row.value(x);
@@ -313,7 +313,8 @@ class Replay {
   // the box. So a solution in the region with such values is in the box.
   std::vector<Interval> bounds_of(int i) const {
     const CoverBox& box = cover_.boxes[i];
-    const Box& dependent = has_sheet(box) ? cover_.regions.at(box.region) : box.box;
+    const bool sheet = has_region(box) && spans_free_sides(box, cover_.regions.at(box.region));
+    const Box& dependent = sheet ? cover_.regions.at(box.region) : box.box;
     std::vector<Interval> bounds;
     for (const int j : problem_.kept()) {
       const bool is_free = std::ranges::find(box.free, j) != box.free.end();

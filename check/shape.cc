@@ -43,6 +43,8 @@ class ShapeCheck {
     for (const CoverBox& box : cover.boxes)
       if (box.verdict != Verdict::regular || box.region < 0 || box.motion >= 0)
         return fail("a box is not regular: the set is not shown to be smooth");
+    if (!std::ranges::all_of(cover.boxes, [&](const CoverBox& b) { return spans(cover, b); }))
+      return fail("a box has no solution for every value of its free variables");
     const std::size_t n = system_.variables.size();
     for (const SheetBridge& b : shape_.bridges)
       if (!is_box(b.region, n)) return fail("a bridge does not have one bounded side for each variable");

@@ -17,16 +17,25 @@ constexpr int kTightenings = 2, kPointTightenings = 30;
 
 class SheetCheck {
  public:
-  SheetCheck(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region)
-      : problem_(problem), equations_(equations), box_(box), region_(region), newton_(equations, problem.size()) {}
+  SheetCheck(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region,
+             bool may_be_part)
+      : problem_(problem),
+        equations_(equations),
+        box_(box),
+        region_(region),
+        may_be_part_(may_be_part),
+        newton_(equations, problem.size()) {}
 
   std::string run() {
     if (std::string fault = check_shape(); !fault.empty()) return fault;
     Sides x;
-    for (const int j : problem_.kept()) x.emplace_back(is_free_[j] ? box_.box[j] : region_[j]);
+    for (const int j : problem_.kept()) x.emplace_back(is_free_[j] || in_part_ ? box_.box[j] : region_[j]);
     examine(x, false);
     return reason_;
   }
+
+  // After run(): does the region not span the box's free sides?
+  bool is_in_part() const { return in_part_; }
 
  private:
   std::string check_shape() {
@@ -49,6 +58,8 @@ class SheetCheck {
     const bool is_point = std::cmp_equal(box_.free.size(), problem_.system().parameters());
     if (box_.verdict == (is_point ? Verdict::regular : Verdict::isolated))
       return "its free variables contradict its verdict";
+    in_part_ = may_be_part_ && !spans_free_sides(box_, region_);
+    if (in_part_) return contains(box_.box, region_) ? "" : "it is not inside the region of its proof, and does not hold it";
     return contains(region_, box_.box) ? "" : "it is not inside the region of its proof";
   }
 
@@ -56,6 +67,9 @@ class SheetCheck {
     if (reason_.empty()) reason_ = reason;
     return false;
   }
+
+  // Nothing is in a part: what is said of its solutions holds, but a sheet would have some.
+  bool empty(const std::string& reason) { return in_part_ || fail(reason); }
 
   // x: a part of the box's free sides, dependent sides that hold every solution of the region over them. `proven`: there is
   // exactly one for every value. False: stop.
@@ -73,7 +87,7 @@ class SheetCheck {
     const bool indivisible = choose(x, false, -1) < 0;  // a point, or free sides that are one: no halves will be narrower
     const int steps = indivisible ? kPointTightenings : kTightenings;
     for (int step = 0;; ++step) {
-      if ((step > 0 || proven) && !newton_.shrink(x, newton_.image(x))) return fail("a part of it has no solution");
+      if ((step > 0 || proven) && !newton_.shrink(x, newton_.image(x))) return empty("a part of it has no solution");
       if (settled(x)) return true;
       if (!reason_.empty()) return false;
       // The region's one solution, for each value of the free variables.
@@ -85,7 +99,7 @@ class SheetCheck {
       if (step == steps) {
         // A bound that a solution touches: where one equation alone gives it exactly, no combination may.
         for (const Row& f : equations_)
-          if (!f.project(x, true)) return fail("a part of it has no solution");
+          if (!f.project(x, true)) return empty("a part of it has no solution");
         if (settled(x)) return true;
         break;
       }
@@ -94,9 +108,11 @@ class SheetCheck {
     return bisect(x, true);
   }
 
-  // Existence and uniqueness over x; shrinks its dependent sides to what holds the solutions. False: not shown.
+  // Existence, but of a box in part, and uniqueness over x; shrinks its dependent sides to what holds the solutions. False:
+  // not shown.
   bool prove(Sides& x) {
     pending_reason_ = "the Jacobian is singular";
+    if (in_part_) return prove_unique(x);
     // About the middle of x; about a solution; about the middle of the region, as the search may have done it. Each time
     // from x as it is: a side that was shrunk to an image has no interior left for the next.
     Sides region = problem_.kept(region_);
@@ -114,6 +130,16 @@ class SheetCheck {
     if (!newton_.set(dependent_, x, Center::refined) || !prove_about_center(x)) return false;
     point_center_ = Center::refined;
     return true;
+  }
+
+  // x may hold nothing: then it stays as it is.
+  bool prove_unique(Sides& x) {
+    pending_reason_ = "uniqueness in it is not shown";
+    if (!newton_.set(dependent_, x, Center::middle)) return false;
+    Sides part = x;
+    const bool some = newton_.shrink(part, newton_.image(x));
+    if (some) x = std::move(part);
+    return !some || newton_.is_injective(x);
   }
 
   bool prove_about_center(Sides& x) {
@@ -187,7 +213,7 @@ class SheetCheck {
       return false;
     }
     Sides clipped = x;
-    if (!problem_.clip_to_implied(clipped)) return fail("a part of it lies outside a domain that the equations imply");
+    if (!problem_.clip_to_implied(clipped)) return empty("a part of it lies outside a domain that the equations imply");
     for (const Problem::Value& v : problem_.values()) {
       Enclosure value = v.row.value(clipped);
       if (value.inside(box_.box[v.variable])) continue;
@@ -202,7 +228,7 @@ class SheetCheck {
       if (value.is_nonnegative()) continue;
       const std::string what =
           condition.variable < 0 ? "an inequality" : "the domain of " + problem_.system().variables[condition.variable].name;
-      if (value.is_negative()) return fail("a part of it violates " + what);
+      if (value.is_negative() && !in_part_) return fail("a part of it violates " + what);
       pending_reason_ = "it may violate " + what;
       return false;
     }
@@ -226,7 +252,7 @@ class SheetCheck {
     const Interval& bound = box_.box[variable];
     if (side.inside(bound)) return true;
     const std::string& name = problem_.system().variables[variable].name;
-    if (!side.overlaps(bound)) return fail("a solution of its region lies outside it (" + name + ")");
+    if (!side.overlaps(bound) && !in_part_) return fail("a solution of its region lies outside it (" + name + ")");
     pending_reason_ = "a solution of its region may lie outside it (" + name + ")";
     return false;
   }
@@ -266,10 +292,12 @@ class SheetCheck {
   const std::vector<Row>& equations_;
   const CoverBox& box_;
   const Box& region_;
+  const bool may_be_part_;
   Krawczyk newton_;
   Center point_center_ = Center::middle;  // of a point's box, once its solution has been shown
   std::vector<unsigned char> is_free_;
   std::vector<int> dependent_;
+  bool in_part_ = false;
   int parts_ = 0;
   int wide_ = -1;  // the first dependent that was not shown to lie in the box, when they were looked at last; −1: none
   std::string reason_, pending_reason_;
@@ -278,7 +306,17 @@ class SheetCheck {
 }  // namespace
 
 std::string check_sheet(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region) {
-  return SheetCheck(problem, equations, box, region).run();
+  return SheetCheck(problem, equations, box, region, false).run();
+}
+
+std::string check_sheet_or_part(const Problem& problem, const CoverBox& box, const Box& region) {
+  SheetCheck check(problem, problem.equations(), box, region, true);
+  std::string fault = check.run();
+  if (!fault.empty() || !check.is_in_part()) return fault;
+  CoverBox part = box;
+  part.box = region;
+  part.verdict = Verdict::boundary;  // of the domain is said above what is said of all the box
+  return check_sheet(problem, problem.equations(), part, region);
 }
 
 Sides solution_near(const Problem& problem, const std::vector<double>& point, const std::vector<int>& held_variables,

@@ -17,6 +17,12 @@ namespace corank::check {
 /// The equations are those given: the problem's, or others that imply them (check/self_motion.h).
 std::string check_sheet(const Problem& problem, const std::vector<Row>& equations, const CoverBox& box, const Box& region);
 
+/// The same of the problem's equations where the region may be narrower than the box along a free variable. Then:
+///   for every value of the free variables in the region there is exactly one solution in it, and it lies in the box;
+///   for every value of theirs in the box there is at most one solution in the box;
+///   regular: each solution in the box lies in the exact domain and satisfies the inequalities.
+std::string check_sheet_or_part(const Problem& problem, const CoverBox& box, const Box& region);
+
 /// Encloses a solution of all equations of a problem without a reduction, at which the variables `held` have the point's
 /// values exactly, or for every value in `over` of theirs a solution; as many are to be held as the equations leave free.
 /// `fault`: why none was shown; empty where one was.

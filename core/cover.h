@@ -22,7 +22,9 @@ using Box = std::vector<Interval>;
 
 /// What is proven about a box; see the table in doc/theory.md.
 enum class Verdict : std::uint8_t {
-  regular,    ///< for every value of the free variables in the box exactly one solution in the box
+  /// The Jacobian has full rank at every solution in the box, and there is one; for every value of the free variables in
+  /// the box exactly one, or, where the box's region is narrower (spans_free_sides), at most one.
+  regular,
   isolated,   ///< exactly one solution in the box (no free variables)
   exact,      ///< the solution is known exactly and verified in exact arithmetic
   boundary,   ///< as regular, but the piece may leave the search domain or an inequality inside the box
@@ -73,8 +75,10 @@ struct SelfMotionRecord {
 struct CoverBox {
   Box box;
   Verdict verdict = Verdict::undecided;
-  std::vector<int> free;  ///< indices of the free variables (regular, boundary, partial)
-  int region = -1;        ///< index in Cover::regions: the box of the proof, −1 where there is none
+  /// Indices of the free variables (regular, boundary, partial). In the list of a whole set that was solved in parts: none,
+  /// unless there is a solution for every value of theirs.
+  std::vector<int> free;
+  int region = -1;  ///< index in Cover::regions: the box of the proof, −1 where there is none
   /// Index in Cover::exact_points: of an `exact` box its point; of an undecided one the point that explains it. −1: none.
   int point = -1;
   /// No solution in the box has a kernel of larger dimension (certify/kernel_bound.h); −1: the system has no kernel, or
@@ -90,6 +94,14 @@ struct CoverBox {
   int part = -1;          ///< of a result that consists of parts: the index of the one it comes from
   TypeLabels types = {};  ///< of every solution in it (certify/type_bounds.h)
 };
+
+/// Does the region of its proof reach as far as the box along the free variables? Then there is a solution for every value
+/// of theirs in the box; else at most one for each, and a sheet may leave the box through its other sides.
+inline bool spans_free_sides(const CoverBox& box, const Box& region) {
+  for (const int j : box.free)
+    if (!region[j].contains(box.box[j])) return false;
+  return true;
+}
 
 /// What is known of a box is about solutions in it; is there one at all?
 inline bool holds_a_solution(const CoverBox& box) {
@@ -129,7 +141,8 @@ struct Cover {
   /// the same one; an `undecided` one is the hull of a cluster of touching boxes that may hold any number, none included.
   std::vector<CoverBox> points;
   /// In all variables: a box of proof holds, for every value of its box's free variables in it, exactly one solution
-  /// (regular, boundary), or exactly one solution (isolated). Boxes that were cut from one sheet share it.
+  /// (regular, boundary), or exactly one solution (isolated). Boxes that were cut from one sheet share it. One that does
+  /// not span its box's free sides lies in its box.
   std::vector<Box> regions;
   std::vector<ExactPoint> exact_points;
   std::vector<SelfMotionRecord> self_motions;
@@ -157,5 +170,11 @@ struct Cover {
   /// True where every point of the domain outside the boxes has been excluded: no box is `pending`.
   bool complete() const { return count(Verdict::pending) == 0; }
 };
+
+/// Is there a solution in the box for every value of its free variables (spans_free_sides)? Of boxes without a region those
+/// say so that have free variables.
+inline bool spans(const Cover& cover, const CoverBox& box) {
+  return box.region >= 0 ? spans_free_sides(box, cover.regions[box.region]) : !box.free.empty();
+}
 
 }  // namespace corank

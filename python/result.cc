@@ -169,7 +169,8 @@ const result::Result& Result::cut(Cut& known, std::uint64_t most) const {
 
 const result::Result& Result::on_page() const { return cut(*on_page_, report::kPageBoxes); }
 
-BoxArrays::BoxArrays(const std::vector<CoverBox>& boxes, std::size_t n) : size(boxes.size()), variables(n) {
+BoxArrays::BoxArrays(const Cover& cover, const std::vector<CoverBox>& boxes, std::size_t n)
+    : size(boxes.size()), variables(n) {
   bounds.reserve(2 * size * n);
   free.assign(size * n, 0);
   for (const auto& [name, of] : kBytes) bytes.emplace_back(name, std::vector<std::uint8_t>()).second.reserve(size);
@@ -178,7 +179,8 @@ BoxArrays::BoxArrays(const std::vector<CoverBox>& boxes, std::size_t n) : size(b
     const CoverBox& b = boxes[i];
     CORANK_CHECK(b.box.size() == n);
     for (const Interval& side : b.box) bounds.insert(bounds.end(), {side.lo(), side.hi()});
-    for (const int j : b.free) free[i * n + static_cast<std::size_t>(j)] = 1;
+    if (spans(cover, b))
+      for (const int j : b.free) free[i * n + static_cast<std::size_t>(j)] = 1;
     for (std::size_t k = 0; k < kBytes.size(); ++k) bytes[k].second.push_back(kBytes[k].second(b));
     for (std::size_t k = 0; k < kNumbers.size(); ++k) numbers[k].second.push_back(kNumbers[k].second(b));
   }

@@ -9,6 +9,7 @@
 #include "corank/result/files/hdf5_file.h"
 #include "corank/result/files/verification.h"
 #include "corank/result/values/sentences.h"
+#include "corank/result/values/tallies.h"
 #include "corank/solve/search/box_labels.h"
 #include "corank/solve/search/recut.h"
 #include "corank/symbolic/model/set_definition.h"
@@ -23,8 +24,10 @@ bool left_whole(const solve::Control& control, result::Result& result) {
   return true;
 }
 
+enum class Labels { none, anew };
+
 // Of a result without parts, or a part.
-void cut_one(const symbolic::Mechanism& model, const solve::Options& options, solve::Control& control,
+void cut_one(const symbolic::Mechanism& model, const solve::Options& options, Labels labels, solve::Control& control,
              result::Result& result) {
   if (left_whole(control, result)) return;
   const System system = result::system_of(model, result);
@@ -38,13 +41,35 @@ void cut_one(const symbolic::Mechanism& model, const solve::Options& options, so
   } catch (const std::invalid_argument& error) {
     throw result::ResultFileError(std::string("its boxes cannot be cut: ") + error.what());
   }
-  solve::bound_kernel_dimensions(prepared, cover, control);
-  solve::prove_passages(prepared, cover, control);
-  if (blocks) solve::label_types(prepared, {*blocks, symbolic::definition(result.set).type}, cover, control);
+  if (labels == Labels::anew) {
+    solve::bound_kernel_dimensions(prepared, cover, control);
+    solve::prove_passages(prepared, cover, control);
+    if (blocks) solve::label_types(prepared, {*blocks, symbolic::definition(result.set).type}, cover, control);
+  }
   cover.types.left_out += left_out;
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.options.sigma = cover.sigma;
   result::describe_in_words(model, system, result);
+}
+
+void cut_all(const solve::Options& options, Labels labels, solve::Control& control, result::Result& result) {
+  const symbolic::Mechanism model = result::model_of(result);
+  if (result.parts.empty()) return cut_one(model, options, labels, control, result);
+  for (result::Result& part : result.parts) cut_one(model, options, labels, control, part);
+  result::merge_parts(result);
+  result::describe_in_words(model, result::system_of(model, result), result);
+}
+
+// Searches boxes with parts of sheets for whole ones. What the control ends stays as it was.
+void find_sheets(solve::Options options, solve::Control& control, result::Result& result) {
+  if (result::parts_of_sheets(result) == 0) return;
+  options.sigma = solve::kWhole;
+  result::Result found = result;
+  cut_all(options, Labels::none, control, found);
+  if (const auto ending = control.ending())
+    result.stopped = to_string(*ending);
+  else
+    result = std::move(found);
 }
 
 }  // namespace
@@ -62,15 +87,9 @@ result::Result cut(result::Result result, const solve::Options& options, solve::
     throw result::ResultFileError(
         "the search itself depends on sigma here, since coefficients have a tolerance; expected a new search");
   const solve::InStage stage(control, solve::Stage::search);  // of all parts: what is cut was found before
-  const symbolic::Mechanism model = result::model_of(result);
   result.search.clear();
-  if (result.parts.empty()) {
-    cut_one(model, options, control, result);
-    return result;
-  }
-  for (result::Result& part : result.parts) cut_one(model, options, control, part);
-  result::merge_parts(result);
-  result::describe_in_words(model, result::system_of(model, result), result);
+  find_sheets(options, control, result);
+  cut_all(options, Labels::anew, control, result);
   return result;
 }
 
@@ -84,11 +103,18 @@ result::Result cut_for_page(const result::Result& whole, solve::Options options,
     options.max_found = most + 1;
   }
   const solve::Control all(limits);
-  for (int tries = 0; tries < kTries && (tries == 0 || !all.ended()); ++tries, options.coarser *= kCoarser) {
+  const auto tried = [&](const auto& attempt) {
     solve::Control control(all.rest(0, 0));
     control.search_progress = progress;
-    result::Result result = cut(whole, options, control);
-    const std::optional<solve::Ending> ending = control.ending();
+    attempt(control);
+    return control.ending();
+  };
+  result::Result sheets = whole;  // found once, not for every σ
+  if (tried([&](solve::Control& control) { find_sheets(options, control, sheets); })) return whole;
+  for (int tries = 0; tries < kTries && (tries == 0 || !all.ended()); ++tries, options.coarser *= kCoarser) {
+    result::Result result;
+    const std::optional<solve::Ending> ending =
+        tried([&](solve::Control& control) { result = cut(sheets, options, control); });
     const bool fits = !ending && (most == 0 || result.cover.boxes.size() <= most);
     if (fits || (ending && ending->by == solve::Limit::interrupt)) return result;
   }

@@ -1,4 +1,5 @@
-// Results of surfaces and solids keep their proven sheets whole (solve::Options::surfaces_whole). Who wants boxes cuts them.
+// Results of surfaces and solids keep their proven sheets, or parts of them, whole (solve::Options::surfaces_whole). Who
+// wants boxes cuts them.
 #pragma once
 
 #include <cstdint>

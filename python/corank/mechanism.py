@@ -243,7 +243,7 @@ class Mechanism:
         Args:
             set: a name of corank.SETS ("cspace", "forward", "inverse" …), or "nodes"; None for a plain system.
             sigma: the largest edge of a box of proven solutions, in lengths and in the sines and cosines of angles; None: a
-                share of the size of a curve, and no limit for larger sets (surfaces_whole).
+                share of the size of a curve, and no limit for larger sets (surfaces_whole); math.inf: whole sheets.
             sigma_length, sigma_angle: the same for lengths, and for sines and cosines.
             kernel: the side of the kernel vector, "right" or "left"; "none": the set is solved in parts, each with an
                 equation of its own and no kernel vector; None: the side that fits the matrix, or "none" if a set of
@@ -259,8 +259,9 @@ class Mechanism:
             max_boxes, max_found, max_solutions, time_limit (seconds), memory_limit (bytes): limits that end the search; 0:
                 no limit. memory_limit=None: three quarters of the machine's memory.
             coarser: a factor for the default of sigma.
-            surfaces_whole: if no sigma is given, leave the sheets, the proven pieces of a surface or a larger set, whole.
-                Pictures cut them, and so does Result.cut(). False: cut them to a share of the size of the set.
+            surfaces_whole: if no sigma is given, leave the boxes of a surface or a larger set as they are proven: with a
+                sheet, or a part of one (doc/theory.md, "Verdicts"). Pictures cut them, and so does Result.cut(). False: cut
+                sheets to a share of the size of the set.
             progress: None: show it on a terminal and in a notebook; True, False, or a function (stage, share, text).
             client: a client of dask.distributed whose workers search (corank.cluster). Limits hold there, too. `threads` is
                 then the number for one unit; 0: one.

@@ -175,7 +175,8 @@ class Result:
     @property
     def free(self) -> np.ndarray:
         """Is the variable free in the box? bool of shape (n, variables), not copied. For every value of the free variables
-        in a `regular` box there is exactly one solution in it."""
+        in a `regular` box there is exactly one solution in it. A `regular` box without free variables holds a part of a
+        sheet (doc/theory.md, "Verdicts")."""
         return self._arrays["free"]
 
     @property

@@ -22,14 +22,16 @@ std::vector<int> places(const Result& whole, const Result& part) {
 bool leaves_out(const std::vector<int>& places) { return std::ranges::find(places, -1) != places.end(); }
 
 // Its configuration alone: what is proven of it stays with the part, but for the exact point, whose index in the whole is so
-// much larger. What that leaves out may be all that it can.
+// much larger. What that leaves out may be all that it can. Without its region, free variables say that there is a solution
+// for every value of theirs.
 CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part, int points_before) {
   CoverBox result;
+  const bool in_part = !spans(whole.parts[part].cover, box);
   result.box.reserve(places.size());
   for (std::size_t v = 0; v < places.size(); ++v) {
     const int own = places[v];
     result.box.push_back(own < 0 ? whole.variables[v].domain : box.box[own]);
-    if (std::ranges::find(box.free, own) != box.free.end()) result.free.push_back(static_cast<int>(v));
+    if (!in_part && std::ranges::find(box.free, own) != box.free.end()) result.free.push_back(static_cast<int>(v));
   }
   // Over all values of what is left out, a point is a smooth piece.
   const bool is_point = box.verdict == Verdict::isolated || box.verdict == Verdict::exact;

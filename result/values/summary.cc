@@ -193,7 +193,7 @@ std::string seconds_text(const Cover& cover) {
 std::string sigma_text(const Sigma& sigma) {
   if (sigma.length != sigma.angle)
     return fmt::format("sigma {:g} in lengths, {:g} in sines and cosines", sigma.length, sigma.angle);
-  return std::isinf(sigma.length) ? "sigma inf: proven sheets are left whole" : fmt::format("sigma {:g}", sigma.length);
+  return std::isinf(sigma.length) ? "sigma inf: boxes are not cut" : fmt::format("sigma {:g}", sigma.length);
 }
 
 std::string along_set_text(const Result& result) {
@@ -275,6 +275,9 @@ std::string to_table(const Result& result) {
       text += fmt::format("  {:<10}  {:>10}\n", to_string(verdict), n);
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
+  if (const std::size_t some = parts_of_sheets(result); some > 0)
+    text += fmt::format("  {} of these hold a part of a sheet: at most one solution for each value of the free variables\n",
+                        some);
   text += reasons_text(result);
   if (result.seems_of_corank > result.options.corank)
     text += fmt::format("    the kernel there seems to have dimension {0}: try --corank {0}, or --kernel none\n",

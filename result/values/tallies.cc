@@ -17,6 +17,15 @@ std::array<std::size_t, kPassages> passages(const Cover& cover) {
   return result;
 }
 
+std::size_t parts_of_sheets(const Result& result) {
+  std::size_t sum = 0;
+  for (const Result& part : result.parts) sum += parts_of_sheets(part);
+  if (!result.parts.empty()) return sum;
+  return how_many(result.cover.boxes, [&](const CoverBox& b) {
+    return (b.verdict == Verdict::regular || b.verdict == Verdict::boundary) && !spans(result.cover, b);
+  });
+}
+
 std::size_t boxes_on(const Cover& cover, std::size_t motion) {
   return how_many(cover.boxes, [motion](const CoverBox& box) { return box.motion == static_cast<int>(motion); });
 }

@@ -33,6 +33,9 @@ std::map<Reason, std::size_t> undecided_reasons(const Cover& cover);
 /// How many boxes there are with each passage, in the order of Passage.
 std::array<std::size_t, kPassages> passages(const Cover& cover);
 
+/// Smooth pieces of which it is not shown that they have a solution for every value of the free variables (spans).
+std::size_t parts_of_sheets(const Result& result);
+
 /// Boxes that lie on the self-motion of that number.
 std::size_t boxes_on(const Cover& cover, std::size_t motion);
 

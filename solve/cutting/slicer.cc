@@ -183,7 +183,24 @@ bool Slicer::slice_in_chart(Task& task, Box sides, const std::vector<int>& depen
   return sheet.proven;
 }
 
+void Slicer::add_part(const Sheet& sheet, FoundList& found) {
+  Box sides = sheet.image, region = sheet.region, narrower = sides;
+  const NewtonStep step(problem_.compiled, preconditioners_.at_midpoint(sides, &sheet.dependent), narrower, workspace_);
+  const Location location = problem_.domain.locate_zeros(step, narrower);
+  if (location == Location::outside) return leave_elsewhere();
+  problem_.append_values(region);
+  problem_.append_values_at_zeros(step, narrower);
+  for (std::size_t j = sides.size(); j < region.size(); ++j) sides.push_back(Interval::hull(narrower[j], region[j]));
+  const Verdict verdict = location == Location::inside ? Verdict::regular : Verdict::boundary;
+  if (recorder_) recorder_->leaf_box(found.size());
+  found.push_back({{std::move(sides), verdict, all_but(sheet.dependent, problem_.compiled.variables())},
+                   {},
+                   std::make_shared<const Box>(std::move(region)),
+                   {}});
+}
+
 void Slicer::slice(const Sheet& sheet, std::span<const Interval> x, FoundList& found, bool whole, bool rechartable) {
+  if (!sheet.spans_image()) return add_part(sheet, found);
   if (!whole && problem_.ended()) {
     left_some_ = true;
     leave(found, Box(x.begin(), x.begin() + problem_.compiled.variables()));

@@ -39,6 +39,8 @@ class Slicer {
 
  private:
   void slice(const certify::Sheet& sheet, std::span<const Interval> x, FoundList& found, bool whole, bool rechartable);
+  // Adds the box of a sheet that leaves it (certify::newton_prove_in_part).
+  void add_part(const certify::Sheet& sheet, FoundList& found);
   // A slice: its sides and, behind them, the eliminated variables'; how often in a row a cut did not make it narrower; how
   // far Y·S was from I in the last step, on this slice or on the one that it was cut from.
   struct Slice {

@@ -30,6 +30,13 @@ certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
   return certify::newton_prove(problem_.compiled, p, x, workspace_);
 }
 
+certify::Sheet BoxProcessor::prove_in_part(std::span<const Interval> x) {
+  const auto& p = preconditioners_.at_midpoint(x, &dependent_);
+  if (p.rank() < problem_.compiled.equations()) return {};
+  const std::optional<Box> near = box_about_solution(problem_.compiled, preconditioners_, x);
+  return near ? certify::newton_prove_in_part(problem_.compiled, p, x, *near, workspace_) : certify::Sheet{};
+}
+
 certify::Sheet BoxProcessor::prove_partially(std::span<const Interval> x) {
   certify::Sheet narrow =
       certify::newton_prove(problem_.compiled, preconditioners_.near_solution(x, problem_.rank_tolerance), x, workspace_);
@@ -51,7 +58,8 @@ certify::Sheet BoxProcessor::prove_partially(std::span<const Interval> x) {
 bool BoxProcessor::certify(std::span<Interval> x, Proof proof) {
   const auto start = std::chrono::steady_clock::now();
   ++shard_.statistics.proofs_tried;
-  const certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
+  certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
+  if (!sheet.proven && proof == Proof::full && problem_.parts_of_sheets) sheet = prove_in_part(x);
   if (sheet.proven) {
     if (recorder_) {
       recorder_->newton(preconditioners_.last(), x);

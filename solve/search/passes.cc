@@ -89,7 +89,7 @@ Sigma sigma_of_search(const Prepared& prepared, const Problem& problem) {
 Sigma sigma_of_set(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards) {
   const Options& options = prepared.options;
   const int dimension = largest_dimension(prepared.reduction.system, shards);
-  if (options.surfaces_whole && dimension > 1 && !options.asked_length() && !options.asked_angle()) return {kWhole, kWhole};
+  if (options.leaves_whole() && dimension > 1) return {kWhole, kWhole};
   return chosen_sigma(prepared, hull_of(prepared, problem, shards), dimension);
 }
 

@@ -1,8 +1,9 @@
 #include "corank/solve/step/local_solution.h"
 
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "corank/core/box.h"
 #include "corank/core/dense.h"
 #include "corank/core/rounding.h"
 #include "corank/solve/step/heuristics.h"
@@ -11,6 +12,8 @@ namespace corank::solve {
 namespace {
 
 using Vector = Eigen::VectorXd;
+template <int Columns>
+using OfFree = Eigen::Matrix<double, Eigen::Dynamic, Columns, 0, kMostFreeOfPoints, Columns == 1 ? 1 : kMostFreeOfPoints>;
 
 // The scaled Jacobian, without the parameters' columns, and residual.
 void linearize(const Problem& problem, const std::vector<double>& x, Eigen::MatrixXd& a, Vector& b) {
@@ -62,6 +65,78 @@ std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<
     for (int j = 0; j < system.variables(); ++j) result.x[j] += shift(j) * system.scales()[j];
   }
   return std::nullopt;
+}
+
+std::optional<Box> box_about_solution(const certify::CompiledSystem& system, const PreconditionerFactory& preconditioners,
+                                      std::span<const Interval> x) {
+  const certify::Preconditioner& p = preconditioners.last();
+  const int r = p.rank();
+  const std::vector<int> free = all_but(p.dependent, system.variables());
+  const int k = static_cast<int>(free.size());
+  if (k > kMostFreeOfPoints) return std::nullopt;
+  // Dependents in their sides' halves over the free variables in theirs: value(s) = offset + slope · s.
+  Eigen::MatrixXd slope(r, k);
+  for (int a = 0; a < r; ++a)
+    for (int f = 0; f < k; ++f)
+      slope(a, f) = preconditioners.sensitivity(a, free[f]) * x[free[f]].width() / x[p.dependent[a]].width();
+  if (!slope.allFinite()) return std::nullopt;
+  std::vector<double> at = midpoint(x.first(system.variables()));
+  OfFree<1> s = OfFree<1>::Zero(k);
+  for (int tries = 0; tries < kPointTries; ++tries) {
+    Vector offset(r), values(r);
+    for (int a = 0; a < r; ++a) values(a) = system.evaluate_at(p.equations[a], at.data()).mid();
+    for (int a = 0; a < r; ++a) {
+      double shift = 0;
+      for (int b = 0; b < r; ++b) shift += p.y[a * r + b] * values(b);
+      const Interval& side = x[p.dependent[a]];
+      offset(a) = 2 * (at[p.dependent[a]] - shift - side.mid()) / side.width();
+    }
+    if (!offset.allFinite()) return std::nullopt;
+    offset -= slope * s;
+    const double end = 1 - kPointRoom;
+    const auto beyond = [&] {
+      const Vector value = offset + slope * s;
+      return Vector(value - value.cwiseMax(-end).cwiseMin(end));
+    };
+    // Newton's method for the least Σ beyond², a convex function, quadratic in pieces.
+    Vector residual = beyond();
+    for (int turn = 0; turn < kPointShifts && residual.squaredNorm() > 0; ++turn) {
+      OfFree<Eigen::Dynamic> hessian = 1e-9 * OfFree<Eigen::Dynamic>::Identity(k, k);
+      for (int a = 0; a < r; ++a)
+        if (residual(a) != 0) hessian += slope.row(a).transpose() * slope.row(a);
+      OfFree<1> gradient = slope.transpose() * residual;
+      for (int f = 0; f < k; ++f)
+        if (std::fabs(s(f)) >= end && gradient(f) * s(f) < 0) {  // it stays at its end
+          hessian.row(f).setZero();
+          hessian.col(f).setZero();
+          hessian(f, f) = 1;
+          gradient(f) = 0;
+        }
+      const OfFree<1> before = s;
+      s = (s - hessian.llt().solve(gradient)).cwiseMax(-end).cwiseMin(end);
+      residual = beyond();
+      if ((s - before).lpNorm<Eigen::Infinity>() < kPointRoom * kPointRoom) break;
+    }
+    if (residual.lpNorm<Eigen::Infinity>() > kPointRoom / 2) return std::nullopt;
+    double moved = 0;
+    const Vector value = offset + slope * s;
+    for (int f = 0; f < k; ++f) at[free[f]] = x[free[f]].mid() + s(f) * x[free[f]].width() / 2;
+    for (int a = 0; a < r; ++a) {
+      const Interval& side = x[p.dependent[a]];
+      const double to = side.mid() + value(a) * side.width() / 2;
+      moved = std::max(moved, std::fabs(to - at[p.dependent[a]]) / side.width());
+      at[p.dependent[a]] = to;
+    }
+    if (moved < kPointRoom / 8) break;
+  }
+  // So small a part of the free sides that the dependents stay in theirs.
+  const double share = kPointRoom / 4 / std::max(1.0, slope.cwiseAbs().rowwise().sum().maxCoeff());
+  Box box(at.size());
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    const double half = share * x[j].width();
+    box[j] = Interval(at[j] - half, at[j] + half);
+  }
+  return box;
 }
 
 bool breaks_inequality(const Problem& problem, const std::vector<double>& x, double share) {

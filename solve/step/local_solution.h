@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "corank/solve/step/preconditioner.h"
 #include "corank/solve/step/problem.h"
 
 namespace corank::solve {
@@ -20,6 +22,11 @@ struct LocalSolution {
 /// Nothing where the steps do not converge, or go farther than `reach` of some variable's scale from the start.
 std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance,
                                             double reach = HUGE_VAL);
+
+/// A small box about a solution in x, as Newton's method in doubles leads to it; nothing where the linearized equations have
+/// none in x. By the last preconditioner, which is that at x's midpoint.
+std::optional<Box> box_about_solution(const certify::CompiledSystem& system, const PreconditionerFactory& preconditioners,
+                                      std::span<const Interval> x);
 
 /// Does an inequality fail at x and, to first order, wherever no variable moves by more than 2·share of its scale? Then what
 /// equations have there, such as the diagonal that the distance of two configurations keeps out, says nothing of the set.

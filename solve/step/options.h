@@ -37,6 +37,7 @@ struct Options {
   std::optional<double> sigma{};
   std::optional<double> sigma_length{}, sigma_angle{};  ///< take sigma's place, each for its kind
   /// Where no σ is asked for, sheets of surfaces and larger sets stay whole; curves are cut. solve::recut cuts them later.
+  /// Boxes then need not hold a whole sheet: Problem::parts_of_sheets.
   bool surfaces_whole = false;
   double coarser = 1;           ///< the default of σ, multiplied
   int threads = 1;              ///< 0: one for each core; at most kMostThreads
@@ -57,6 +58,7 @@ struct Options {
 
   std::optional<double> asked_length() const { return sigma_length ? sigma_length : sigma; }
   std::optional<double> asked_angle() const { return sigma_angle ? sigma_angle : sigma; }
+  bool leaves_whole() const { return surfaces_whole && !asked_length() && !asked_angle(); }
   /// Throws OptionError where a number is out of its range, whatever the system.
   void validate() const;
   /// The same, and where a σ is below smallest_sigma(system).

@@ -66,6 +66,9 @@ struct Problem {
   double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
   Heuristics heuristics;
+  /// A box of which all is proven but that its sheet stays inside is done (certify::newton_prove_in_part): sheets are not
+  /// to be cut. Solids have a tenth of the boxes then, surfaces half of them.
+  bool parts_of_sheets = false;
   /// Of the kept variables, then of the eliminated ones: the σ that applies to it; infinite where none does (kernel vectors,
   /// auxiliaries).
   std::vector<double> sigma;

@@ -77,6 +77,8 @@ Problem problem_with_strata(const Prepared& prepared, std::function<bool()> ende
   Problem problem(prepared.system, prepared.reduction, std::move(ended));
   const certify::CompiledSystem& system = problem.compiled;
   const bool exact = prepared.reduction.consistent && !problem.tolerant && system.parameters().empty();
+  problem.parts_of_sheets = exact && prepared.options.leaves_whole() && problem.has_surfaces();
+  if (problem.parts_of_sheets) problem.heuristics.sheet_spread = 0;  // it need not stay inside
   const bool any_set = system.equations() > 0 && system.unknowns() > system.equations();
   if (exact && any_set && prepared.options.roots.empty()) problem.strata = find_strata(problem, prepared.reduction.system);
   return problem;

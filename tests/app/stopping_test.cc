@@ -62,7 +62,7 @@ TEST(Limits, ThatDoNotBiteLeaveNoTrace) {
 TEST(Limits, ThatEndAReportAreOnItsPage) {
   const TemporaryFolder folder;
   const Outcome outcome =
-      run_corank({"report", model("dextar"), "--sets", "cspace,forward", "--memory-limit", "2M", "-o", folder.file("r")});
+      run_corank({"report", model("dextar"), "--sets", "cspace,forward", "--memory-limit", "200k", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 3);
   EXPECT_THAT(outcome.err, HasSubstr("corank: cspace: stopped by the memory limit, in the stage search\n"));
   EXPECT_THAT(outcome.err, HasSubstr("corank: the report is incomplete, and says what is missing\n"));

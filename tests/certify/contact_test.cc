@@ -68,6 +68,14 @@ TEST(Contact, WithTheEndOfADependentVariableIsReachedWhereItIsCrossed) {
   EXPECT_FALSE(contacts_of(circle(), inside).at(0).reached) << "x <= 2.99 there, whatever the box says";
 }
 
+TEST(Contact, OfAPartOfASheetIsNotProven) {
+  CoverBox part = box({2.3, 3}, {4, 4.4}, Verdict::regular, {0});
+  part.region = 0;  // which begins at x = 2.4: nothing says that there is a point for every x
+  EXPECT_FALSE(contacts_of(circle(), part).at(0).reached);
+  part.box[0] = {2.4, 3};
+  EXPECT_TRUE(contacts_of(circle(), part).at(0).reached);
+}
+
 TEST(Contact, OfABoundaryBoxIsReachedWhereItIsTheOnlyOne) {
   const auto one = contacts_of(circle(), box({2.5, 3}, {4, 4.4}, Verdict::boundary, {0}));
   ASSERT_EQ(one.size(), 1u);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "corank/certify/distinct.h"
 #include "corank/core/rounding.h"
@@ -439,6 +441,41 @@ TEST(NewtonProof, IsRefusedInAnotherRoundingMode) {
   EXPECT_THROW(newton_prove(f, {{0}, {x}, {1}}, box, workspace), std::logic_error);
   const UpwardRounding rounding;
   EXPECT_TRUE(newton_prove(f, {{0}, {x}, {1}}, box, workspace).proven);
+}
+
+// x² + y² = 1 solved for y, in a box that the circle leaves through its side y = 4/5, at x = 3/5.
+class PartOfACircle : public Newton {
+ protected:
+  PartOfACircle() {
+    SystemBuilder b;
+    const int x = b.variable("x", "-2", "2"), y = b.variable("y", "-2", "2");
+    b.equation({{"1", {{x, 2}}}, {"1", {{y, 2}}}, {"-1", {}}});
+    system_.emplace(b.system());
+  }
+  Sheet prove(const std::vector<Interval>& x, const std::vector<Interval>& near) {
+    return newton_prove_in_part(*system_, {{0}, {1}, {0.7}}, x, near, workspace_);
+  }
+  std::optional<CompiledSystem> system_;
+};
+
+TEST_F(PartOfACircle, IsProvenInABoxThatItLeaves) {
+  const std::vector<Interval> x{{0.3, 0.9}, {0.4, 0.8}}, near{{0.69, 0.71}, {0.70, 0.73}};
+  EXPECT_FALSE(newton_prove(*system_, {{0}, {1}, {0.7}}, x, workspace_).proven) << "y is above the box at x = 0.3";
+  const Sheet sheet = prove(x, near);
+  ASSERT_TRUE(sheet.proven);
+  EXPECT_FALSE(sheet.spans_image());
+  EXPECT_EQ(sheet.image, x);
+  EXPECT_EQ(sheet.region[0], near[0]);
+  EXPECT_TRUE(x[1].contains(sheet.region[1]));
+  EXPECT_TRUE(sheet.region[1].contains(std::sqrt(1 - 0.49)));
+}
+
+TEST_F(PartOfACircle, IsNotProvenWhereThereMayBeTwoPointsOrNone) {
+  const std::vector<Interval> near{{0.69, 0.71}, {0.70, 0.73}};
+  EXPECT_FALSE(prove({{0.3, 0.9}, {-0.8, 0.8}}, near).proven) << "two points for x = 0.7";
+  EXPECT_FALSE(prove({{0.3, 0.9}, {0, 0.8}}, near).proven) << "a vertical tangent may be in it";
+  EXPECT_FALSE(prove({{0.1, 0.3}, {0.4, 0.8}}, {{0.19, 0.21}, {0.6, 0.62}}).proven) << "no point at all";
+  EXPECT_FALSE(prove({{0.3, 0.6}, {0.4, 0.8}}, near).proven) << "the point is beside the box";
 }
 
 }  // namespace

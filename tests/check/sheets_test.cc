@@ -25,6 +25,11 @@ std::string fault(const System& system, const Claim& claim, const std::vector<Re
   return check_sheet(problem, problem.equations(), box, claim.region);
 }
 
+std::string fault_of_part(const System& system, const Claim& claim, const std::vector<ReductionStep>& reduction = {}) {
+  const Problem problem(system, reduction);
+  return check_sheet_or_part(problem, {claim.box, claim.verdict, claim.free, 0}, claim.region);
+}
+
 System lines(const std::string& domain = "[-9, 9]") {
   return plain("[SYSTEM VARS]\nx : " + domain + "\ny : [-9, 9]\nw : [-9, 9]\n[SYSTEM EQS]\nx = y;\nw = y;\n");
 }
@@ -178,6 +183,38 @@ TEST(Sheet, IsNotShownByALimitOfItsParts) {
       "[SYSTEM VARS]\nx : [-1, 1]\ny : [-1, 1]\nz : [-9, 9]\n[SYSTEM EQS]\nz - x^2 + 2*x*y - y^2 = 0;\nx + y <= 1.99;\n");
   const Interval side(-1, 1);
   EXPECT_NE(fault(system, {Verdict::regular, {0, 1}, {side, side, {-1e-8, 5}}, {side, side, {-2, 6}}}), "");
+}
+
+// The circle leaves the box at (3/5, 4/5); its region is a part of it.
+TEST(PartOfASheet, HasOneSolutionInItsRegionAndAtMostOneElsewhere) {
+  const auto with = [](const Box& box, const Box& region, Verdict verdict = Verdict::regular) {
+    const System circle = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n");
+    return fault_of_part(circle, {verdict, {0}, box, region});
+  };
+  const Box box{{0.3, 0.9}, {0.4, 0.8}}, region{{0.69, 0.71}, {0.7, 0.73}};
+  EXPECT_EQ(with(box, region), "");
+  EXPECT_EQ(with(box, region, Verdict::boundary), "");
+  const System circle = plain("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\n");
+  EXPECT_NE(fault(circle, {Verdict::regular, {0}, box, region}), "") << "it is no sheet";
+  EXPECT_NE(with(box, {{0.3, 0.9}, {0.7, 0.73}}), "") << "the whole sheet is not in it";
+  EXPECT_THAT(with({{0.3, 0.9}, {-0.8, 0.8}}, region), HasSubstr("uniqueness")) << "two points for x = 0.7";
+  EXPECT_NE(with({{0.3, 1}, {0, 0.8}}, region), "") << "a vertical tangent";
+  EXPECT_NE(with(box, {{0.69, 0.71}, {0.73, 0.76}}), "") << "no point in its region";
+  EXPECT_NE(with(box, {{0.69, 0.71}, {-0.73, -0.7}}), "") << "its region is outside";
+  EXPECT_NE(with(box, {{0.69, 0.95}, {0.3, 0.75}}), "") << "its region is across";
+  EXPECT_NE(with({{0.1, 0.3}, {0.4, 0.8}}, {{0.19, 0.21}, {0.6, 0.62}}), "") << "no point at all";
+}
+
+TEST(PartOfASheet, LiesInTheDomainUnlessItIsBoundary) {
+  const auto with = [](const char* z, Verdict verdict) {
+    const System system = plain(std::string("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\nz : [") + z +
+                                "]\n[SYSTEM EQS]\nx^2 + y^2 = 1;\nz = x + y;\n");
+    const Claim claim{verdict, {0}, {{0.3, 0.9}, {0.4, 0.8}, {0.7, 1.7}}, {{0.69, 0.71}, {0.7, 0.73}, {1.39, 1.44}}};
+    return fault_of_part(system, claim, {Elimination{2, 1}});
+  };
+  EXPECT_EQ(with("-9, 9", Verdict::regular), "");
+  EXPECT_NE(with("7/5, 9", Verdict::regular), "");
+  EXPECT_EQ(with("7/5, 9", Verdict::boundary), "");
 }
 
 }  // namespace

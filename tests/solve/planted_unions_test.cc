@@ -23,7 +23,8 @@ namespace {
 constexpr double kSampleError = 1e-9, kApart = 1e-5;
 
 struct UnionTally {
-  std::size_t systems = 0, complete = 0, unions = 0, products = 0, strata = 0, points = 0, claims = 0, lost = 0, wrong = 0;
+  std::size_t systems = 0, complete = 0, unions = 0, products = 0, strata = 0, points = 0, claims = 0, parts = 0, lost = 0,
+              wrong = 0;
 };
 
 class PlantedUnion {
@@ -240,8 +241,11 @@ void compare_with_members(PlantedUnion& planted, const Cover& cover, UnionTally&
         cover.boxes[static_cast<std::size_t>(planted.between(0, 0.999) * static_cast<double>(cover.boxes.size()))];
     if (b.verdict != Verdict::regular && b.verdict != Verdict::isolated) continue;
     ++tally.claims;
+    const bool in_part = !b.free.empty() && !spans(cover, b);
+    tally.parts += in_part;
     std::vector<double> x;
-    for (const Interval& side : b.box) x.push_back(planted.between(side.lo(), side.hi()));
+    for (const Interval& side : in_part ? cover.regions[static_cast<std::size_t>(b.region)] : b.box)
+      x.push_back(planted.between(side.lo(), side.hi()));
     bool found = false;
     for (int again = 0; again < 40 && !found; ++again)  // of the circle, either half
       for (const auto& choice : all)
@@ -250,9 +254,10 @@ void compare_with_members(PlantedUnion& planted, const Cover& cover, UnionTally&
   }
 }
 
-Cover cover_of(const PlantedUnion& planted) {
+Cover cover_of(const PlantedUnion& planted, bool whole = false) {
   Options options;
-  options.sigma = 0.25;
+  options.surfaces_whole = whole;
+  if (!whole) options.sigma = 0.25;
   options.max_boxes = 2000;
   return solve(planted.system(), options);
 }
@@ -264,7 +269,7 @@ TEST(PlantedUnions, LoseNothingAndClaimNothingFalse) {
   for (unsigned seed = first; seed < first + count && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     PlantedUnion planted(seed);
-    const Cover cover = cover_of(planted);
+    const Cover cover = cover_of(planted, seed % 2 == 1);
     ++tally.systems;
     tally.complete += cover.complete();
     tally.unions += planted.has_union;
@@ -277,9 +282,11 @@ TEST(PlantedUnions, LoseNothingAndClaimNothingFalse) {
   if (test::long_run())
     std::cout << tally.systems << " systems: " << tally.unions << " unions, " << tally.products << " products, "
               << tally.strata << " with a shared factor; " << tally.complete << " complete; " << tally.points << " points, "
-              << tally.claims << " claims; lost " << tally.lost << ", false " << tally.wrong << std::endl;
+              << tally.claims << " claims, " << tally.parts << " of parts of sheets; lost " << tally.lost << ", false "
+              << tally.wrong << std::endl;
   EXPECT_GT(tally.points, 10 * tally.systems);
   EXPECT_GT(tally.claims, tally.systems);
+  EXPECT_GT(2 * tally.parts, tally.systems);
 }
 
 TEST(PlantedUnions, AreMissedWhereABoxIsLostOrAClaimIsFalse) {
