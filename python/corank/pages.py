@@ -57,8 +57,8 @@ def report(
     Args:
         path: a folder for index.html, the results and the figures; None: only return the page.
         sets: the names of the sets; None: corank.USUAL_SETS.
-        sigma, cspace_sigma: the largest edge of a box, in sets of singularities and in C-space. None: results keep the
-            sheets of surfaces whole, and the page shows them cut.
+        sigma, cspace_sigma: the largest edge of a box, in sets of singularities and in C-space. None: results keep
+            the boxes of surfaces uncut, and the page shows them cut.
         corank: for the sets with a kernel: only configurations at which the kernel has at least this dimension.
         max_boxes, max_found, time_limit: limits that end each search; 0: no limit. The page says which sets are incomplete.
             Aspects (of C-spaces with one or two dimensions) are left out if they take longer than the time limit.
