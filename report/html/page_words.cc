@@ -136,18 +136,21 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   if (found.counted) words.finding += fmt::format(" in {} of touching boxes", counted(found.count, "component"));
   const auto counts = cover.counts();
   const auto count = [&](Verdict verdict) { return counts[index(verdict)]; };
-  const std::size_t regular = count(Verdict::regular), boundary = count(Verdict::boundary),
-                    in_part = result::parts_of_sheets(result);
-  if (regular > 0)
+  const std::size_t regular = count(Verdict::regular), boundary = count(Verdict::boundary);
+  const std::size_t sheets = result::parts_of_sheets(result) == 0 ? regular : how_many(cover.boxes, [&](const auto& b) {
+    return b.verdict == Verdict::regular && spans(cover, b);
+  });
+  const std::string coordinates = result::counted(cover.dimension, "free coordinate");
+  if (sheets > 0)
     words.proven.push_back(fmt::format(
-        "In {} of {} boxes ({}) the {} is one smooth piece: for every value of {} there is "
-        "exactly one solution.",
-        grouped(regular), grouped(cover.boxes.size()), percentage(regular, cover.boxes.size()),
-        result.parts.size() > 1 ? "part that it is of" : "set", result::counted(cover.dimension, "free coordinate")));
-  if (in_part > 0)
-    words.proven.push_back(
-        fmt::format("{} of these hold a part of such a piece: at most one solution for each value, and one for some.",
-                    grouped(in_part)));
+        "In {} of {} boxes ({}) the {} is one smooth piece: for every value of {} there is exactly one solution.",
+        grouped(sheets), grouped(cover.boxes.size()), percentage(sheets, cover.boxes.size()),
+        result.parts.size() > 1 ? "part that it is of" : "set", coordinates));
+  if (regular > sheets)
+    words.proven.push_back(fmt::format(
+        "In {} boxes the set is smooth, but may leave the box: for each value of {} there is at most one solution, "
+        "and for some there is one.",
+        grouped(regular - sheets), coordinates));
   if (boundary > 0)
     words.proven.push_back(
         fmt::format("In {} the same is proven for a piece that may reach beyond the search domain.", boxes_text(boundary)));

@@ -6,18 +6,21 @@
 
 #include <atomic>
 #include <set>
+#include <string>
 
+#include "corank/result/values/summary.h"
+#include "corank/result/values/tallies.h"
 #include "corank/study/answer.h"
 #include "corank/study/model.h"
 
 namespace corank::study {
 namespace {
 
-result::Result whole_sheets() {
-  return answer({.model = read_model(CORANK_SOURCE_DIR "/models/planar/3prr.cuik").mechanism,
-                 .set = symbolic::SingularitySet::inverse},
+result::Result uncut(symbolic::SingularitySet set) {
+  return answer({.model = read_model(CORANK_SOURCE_DIR "/models/planar/3prr.cuik").mechanism, .set = set},
                 {.search = {.surfaces_whole = true}});
 }
+result::Result whole_sheets() { return uncut(symbolic::SingularitySet::inverse); }
 
 TEST(Cut, ThatHasEndedBeforeItBeginsLeavesTheSheetsAsTheyAre) {
   const result::Result whole = whole_sheets();
@@ -41,6 +44,20 @@ TEST(Cut, IsTheStageOfTheSearchInAllParts) {
   EXPECT_GT(cut.cover.boxes.size(), whole.cover.boxes.size());
   EXPECT_EQ(stages, std::set{solve::Stage::search});
   EXPECT_EQ(cut.stopped, "");
+}
+
+TEST(Cut, FindsWholeSheetsInBoxesWithPartsOfThem) {
+  const result::Result found = uncut(symbolic::SingularitySet::forward);
+  const std::size_t parts = result::parts_of_sheets(found);
+  EXPECT_GT(parts, 0u);
+  EXPECT_EQ(result::how_many(found.cover.boxes, [](const CoverBox& b) { return b.free.empty(); }), parts)
+      << "in the list of the whole set, too";
+  EXPECT_THAT(to_table(found), testing::HasSubstr(std::to_string(parts) + " of these hold a part of a sheet"));
+  solve::Control control;
+  const result::Result cut = study::cut(found, {.sigma = 0.5}, control);
+  EXPECT_TRUE(cut.cover.complete());
+  EXPECT_EQ(result::parts_of_sheets(cut), 0u);
+  EXPECT_EQ(result::parts_of_sheets(cut_for_page(found, {}, 20'000, {})), 0u);
 }
 
 TEST(Cut, ForAPageHasAsManyBoxesAsItShowsInAllParts) {
