@@ -34,7 +34,7 @@ void cut_one(const symbolic::Mechanism& model, const solve::Options& options, La
   const solve::Prepared prepared = solve::prepare(system, options, control);
   if (left_whole(control, result)) return;  // the reduction was perhaps given up, and is not the cover's
   const auto blocks = result::blocks_of(result);
-  const std::size_t left_out = result.cover.types.left_out;
+  const CoverTypes types = result.cover.types;
   Cover& cover = result.cover;
   try {
     cover = solve::recut(prepared, std::move(cover), control);
@@ -45,8 +45,10 @@ void cut_one(const symbolic::Mechanism& model, const solve::Options& options, La
     solve::bound_kernel_dimensions(prepared, cover, control);
     solve::prove_passages(prepared, cover, control);
     if (blocks) solve::label_types(prepared, {*blocks, symbolic::definition(result.set).type}, cover, control);
+    cover.types.left_out += types.left_out;
+  } else {
+    cover.types = types;
   }
-  cover.types.left_out += left_out;
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.options.sigma = cover.sigma;
   result::describe_in_words(model, system, result);
@@ -60,16 +62,13 @@ void cut_all(const solve::Options& options, Labels labels, solve::Control& contr
   result::describe_in_words(model, result::system_of(model, result), result);
 }
 
-// Searches boxes with parts of sheets for whole ones. What the control ends stays as it was.
-void find_sheets(solve::Options options, solve::Control& control, result::Result& result) {
-  if (result::parts_of_sheets(result) == 0) return;
+// Searches boxes with parts of sheets for whole ones, which get no labels. Nothing: the control has ended the run before.
+std::optional<result::Result> with_sheets(result::Result result, solve::Options options, solve::Control& control) {
+  options.sigma_length.reset();
+  options.sigma_angle.reset();
   options.sigma = solve::kWhole;
-  result::Result found = result;
-  cut_all(options, Labels::none, control, found);
-  if (const auto ending = control.ending())
-    result.stopped = to_string(*ending);
-  else
-    result = std::move(found);
+  cut_all(options, Labels::none, control, result);
+  return control.ending() ? std::nullopt : std::optional(std::move(result));
 }
 
 }  // namespace
@@ -88,7 +87,8 @@ result::Result cut(result::Result result, const solve::Options& options, solve::
         "the search itself depends on sigma here, since coefficients have a tolerance; expected a new search");
   const solve::InStage stage(control, solve::Stage::search);  // of all parts: what is cut was found before
   result.search.clear();
-  find_sheets(options, control, result);
+  if (result::parts_of_sheets(result) > 0)
+    if (auto sheets = with_sheets(result, options, control)) result = *std::move(sheets);
   cut_all(options, Labels::anew, control, result);
   return result;
 }
@@ -109,8 +109,11 @@ result::Result cut_for_page(const result::Result& whole, solve::Options options,
     attempt(control);
     return control.ending();
   };
-  result::Result sheets = whole;  // found once, not for every σ
-  if (tried([&](solve::Control& control) { find_sheets(options, control, sheets); })) return whole;
+  std::optional<result::Result> found;  // once, not for every σ
+  if (result::parts_of_sheets(whole) > 0 &&
+      tried([&](solve::Control& control) { found = with_sheets(whole, options, control); }))
+    return whole;
+  const result::Result& sheets = found ? *found : whole;
   for (int tries = 0; tries < kTries && (tries == 0 || !all.ended()); ++tries, options.coarser *= kCoarser) {
     result::Result result;
     const std::optional<solve::Ending> ending =

@@ -60,6 +60,19 @@ TEST(Cut, FindsWholeSheetsInBoxesWithPartsOfThem) {
   EXPECT_EQ(result::parts_of_sheets(cut_for_page(found, {}, 20'000, {})), 0u);
 }
 
+TEST(Cut, KeepsTheTypesThatWereAskedFor) {
+  const result::Result found = answer({.model = read_model(CORANK_SOURCE_DIR "/models/planar/3prr.cuik").mechanism,
+                                       .set = symbolic::SingularitySet::forward,
+                                       .kernel = symbolic::KernelSide::right},
+                                      {.search = {.surfaces_whole = true}});
+  EXPECT_GT(result::parts_of_sheets(found), 0u);
+  EXPECT_GT(found.cover.types.asked, 0);
+  solve::Control control;
+  const result::Result cut = study::cut(found, {.sigma = 0.5}, control);
+  EXPECT_EQ(cut.cover.types.asked, found.cover.types.asked);
+  EXPECT_GT(result::how_many(cut.cover.boxes, [](const CoverBox& b) { return b.types != TypeLabels{}; }), 0u);
+}
+
 TEST(Cut, ForAPageHasAsManyBoxesAsItShowsInAllParts) {
   const result::Result whole = whole_sheets();
   std::size_t before = 0;
