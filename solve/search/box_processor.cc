@@ -31,7 +31,7 @@ certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
 }
 
 certify::Sheet BoxProcessor::prove_in_part(std::span<const Interval> x) {
-  const auto& p = preconditioners_.at_midpoint(x, &dependent_);
+  const certify::Preconditioner& p = preconditioners_.last();
   if (p.rank() < problem_.compiled.equations()) return {};
   const std::optional<Box> near = box_about_solution(problem_.compiled, preconditioners_, x);
   return near ? certify::newton_prove_in_part(problem_.compiled, p, x, *near, workspace_) : certify::Sheet{};

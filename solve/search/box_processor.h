@@ -61,7 +61,7 @@ class BoxProcessor {
   // true.
   enum class Proof { full, partial };
   certify::Sheet prove(std::span<const Interval> x);
-  // The same for what a sheet leaves: after prove(x), with its dependent variables.
+  // The same for what a sheet leaves: after prove(x), by its preconditioner.
   certify::Sheet prove_in_part(std::span<const Interval> x);
   // Proves an independent subset and bounds the others over a box no narrower than σ: in a tiny box around a singular point
   // any equation looks redundant.

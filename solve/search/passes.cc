@@ -49,10 +49,13 @@ int largest_dimension(const System& system, const std::vector<Shard*>& shards) {
 }  // namespace
 
 Work first_pass(const Prepared& prepared) {
-  const certify::Reduction& reduction = prepared.reduction;
+  if (!prepared.options.roots.empty()) return pass_over(prepared.reduction, prepared.options.roots);
+  return {{{prepared.reduction.system.domain(), 1, {}}}, kFirstShare};
+}
+
+Work pass_over(const certify::Reduction& reduction, const std::vector<Box>& boxes) {
   std::vector<Waiting> roots;
-  if (prepared.options.roots.empty()) roots.push_back({reduction.system.domain(), 1, {}});
-  for (const Box& given : prepared.options.roots) {
+  for (const Box& given : boxes) {
     Box root = reduction.system.domain();
     bool empty = false;
     for (std::size_t j = 0; j < root.size(); ++j) empty = empty || !root[j].intersect(given.at(reduction.kept[j]));

@@ -14,6 +14,8 @@ namespace corank::solve {
 
 /// All that is to be searched, within the domain.
 Work first_pass(const Prepared& prepared);
+/// These boxes, in all variables, within the domain.
+Work pass_over(const certify::Reduction& reduction, const std::vector<Box>& boxes);
 
 /// What is to be searched further of the boxes that a pass has postponed, each once; the others are proven, or given up, in
 /// the pool's shards. Empty: the search is done.

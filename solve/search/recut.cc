@@ -7,7 +7,7 @@
 #include "corank/certify/domain.h"
 #include "corank/core/box.h"
 #include "corank/core/rounding.h"
-#include "corank/solve/step/heuristics.h"
+#include "corank/solve/search/passes.h"
 #include "corank/solve/store/journal.h"
 #include "corank/solve/store/strata.h"
 
@@ -35,15 +35,15 @@ class StateOfCover {
     shard.statistics = cover.statistics;
     std::vector<std::shared_ptr<const Box>> regions;
     for (const Box& region : cover.regions) regions.push_back(std::make_shared<const Box>(lowered(region)));
+    std::vector<Box> parts;  // of sheets
     for (CoverBox& box : cover.boxes) {
       const auto region = box.region >= 0 ? regions.at(box.region) : nullptr;
-      Box sides = lowered(box.box);
-      if (region && box.motion < 0 && !spans_free_sides(box, cover.regions[box.region])) {
-        sides.resize(reduction_.kept.size());
-        state.first.boxes.push_back({std::move(sides), 0, {.place = state.first.boxes.size() + 1}});
+      if (region && box.motion < 0 && !spans(cover, box)) {
+        parts.push_back(std::move(box.box));
         continue;
       }
       certify::Sheet sheet = sheet_of(box, region.get());
+      Box sides = lowered(box.box);
       if (sheet.proven) {
         sides.resize(reduction_.kept.size());
         certify::clip_to_domain(reduction_.system, sides);  // as a search's boxes are; sheets reach beyond
@@ -54,9 +54,7 @@ class StateOfCover {
         shard.found.push_back({std::move(box), {}, region, {}});
       }
     }
-    for (Waiting& box : state.first.boxes) box.share = 1.0 / static_cast<double>(state.first.boxes.size());
-    state.first.postpone = kFirstShare;
-    state.pass = state.first;
+    state.first = state.pass = pass_over(reduction_, parts);
     state.motions = std::move(motions_);
     state.shards.push_back(std::move(shard));
     return state;
