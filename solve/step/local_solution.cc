@@ -82,6 +82,7 @@ std::optional<Box> box_about_solution(const certify::CompiledSystem& system, con
   if (!slope.allFinite()) return std::nullopt;
   std::vector<double> at = midpoint(x.first(system.variables()));
   OfFree<1> s = OfFree<1>::Zero(k);
+  double outside = 0;  // of half a side
   for (int tries = 0; tries < kPointTries; ++tries) {
     Vector offset(r), values(r);
     for (int a = 0; a < r; ++a) values(a) = system.evaluate_at(p.equations[a], at.data()).mid();
@@ -117,7 +118,8 @@ std::optional<Box> box_about_solution(const certify::CompiledSystem& system, con
       residual = beyond();
       if ((s - before).lpNorm<Eigen::Infinity>() < kPointRoom * kPointRoom) break;
     }
-    if (residual.lpNorm<Eigen::Infinity>() > kPointRoom / 2) return std::nullopt;
+    outside = residual.lpNorm<Eigen::Infinity>();
+    if (outside > kPointMiss) return std::nullopt;
     double moved = 0;
     const Vector value = offset + slope * s;
     for (int f = 0; f < k; ++f) at[free[f]] = x[free[f]].mid() + s(f) * x[free[f]].width() / 2;
@@ -129,6 +131,7 @@ std::optional<Box> box_about_solution(const certify::CompiledSystem& system, con
     }
     if (moved < kPointRoom / 8) break;
   }
+  if (outside > kPointRoom / 2) return std::nullopt;
   // So small a part of the free sides that the dependents stay in theirs.
   const double share = kPointRoom / 4 / std::max(1.0, slope.cwiseAbs().rowwise().sum().maxCoeff());
   Box box(at.size());
