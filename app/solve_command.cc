@@ -81,8 +81,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
              "holds the model and the question; you may give limits, --threads, -o, --json and --digits anew");
   add_option(sub, "--refine RESULT.h5", command.refine_path,
              "Cut the sheets of this result to --sigma, by default 1/60 of the size of a surface, 1/20 for three\n"
-             "dimensions, coarser for more or with over 20 variables, without a search. A proof of completeness\n"
-             "(--proof) stays in RESULT.h5");
+             "dimensions, coarser for more or with over 20 variables. Boxes with parts of sheets are searched again\n"
+             "first. A proof of completeness (--proof) stays in RESULT.h5");
   sub.add_flag("--estimate", command.estimate,
                "Only predict boxes, time, memory and the size of the file, from a trial of a few seconds");
   command.json.add(sub, "the summary");

@@ -374,14 +374,16 @@ class Result:
         time_limit: float = 0,
         progress: ProgressOption = None,
     ) -> "Result":
-        """Returns the same set in narrower boxes, without a search: each sheet, a proven piece of the set, is cut, and its
-        parts inherit its proof. The proof of completeness stays with this result.
+        """Returns the same set in narrower boxes: each sheet, a proven piece of the set, is cut, and what it is cut into
+        inherits its proof. Boxes with parts of sheets are searched for whole ones first. The proof of completeness stays
+        with this result.
 
         Args:
             sigma: the largest edge of a box; None: a share of the size of the set.
             sigma_length, sigma_angle: the same for lengths, and for sines and cosines.
             threads: the number of threads; 0: one for each core.
-            time_limit: in seconds; 0: no limit. Boxes that are not cut by then are pending.
+            time_limit: in seconds; 0: no limit. Boxes that are not cut by then are pending; while whole sheets are still
+                being searched, none is cut.
 
         Raises:
             ResultFileError: if the coefficients have a tolerance, so that the search itself depends on sigma.

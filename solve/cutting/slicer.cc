@@ -190,7 +190,11 @@ void Slicer::add_part(const Sheet& sheet, FoundList& found) {
   if (location == Location::outside) return leave_elsewhere();
   problem_.append_values(region);
   problem_.append_values_at_zeros(step, narrower);
-  for (std::size_t j = sides.size(); j < region.size(); ++j) sides.push_back(Interval::hull(narrower[j], region[j]));
+  for (std::size_t j = sides.size(); j < region.size(); ++j) {
+    const Interval value = Interval::hull(narrower[j], region[j]);
+    const double room = kRoom * value.width();  // as leave_room
+    sides.push_back(value + Interval(-room, room));
+  }
   const Verdict verdict = location == Location::inside ? Verdict::regular : Verdict::boundary;
   if (recorder_) recorder_->leaf_box(found.size());
   found.push_back({{std::move(sides), verdict, all_but(sheet.dependent, problem_.compiled.variables())},

@@ -269,6 +269,11 @@ std::optional<BoxProcessor::Outcome> BoxProcessor::process_on_strata(std::span<I
   return std::nullopt;
 }
 
+bool BoxProcessor::reaches_beyond(std::span<const Interval> x) const {
+  return problem_.parts_of_sheets && relative_width(x) > kAcrossShare &&
+         problem_.domain.locate_zeros(*contractor_.step(), x) != certify::Location::inside;
+}
+
 BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpone, double share) {
   ++shard_.statistics.processed;
   split_at_.reset();
@@ -277,7 +282,7 @@ BoxProcessor::Outcome BoxProcessor::process(std::span<Interval> x, double postpo
     return Outcome::done;
   }
   if (preconditioners_.over()) return Outcome::interrupted;
-  if (contractor_.worth_proving() && certify(x, Proof::full)) return Outcome::done;
+  if (contractor_.worth_proving() && !reaches_beyond(x) && certify(x, Proof::full)) return Outcome::done;
   if (const auto outcome = process_on_strata(x, postpone, share)) return *outcome;
   std::optional<LocalSolution> near;
   split_variable_ = choose_split(x, postpone, near);

@@ -67,6 +67,8 @@ class BoxProcessor {
   // any equation looks redundant.
   certify::Sheet prove_partially(std::span<const Interval> x);
   bool certify(std::span<Interval> x, Proof proof);
+  // Is x wide, may it hold solutions outside the domain, and is such a box better divided (kAcrossShare)?
+  bool reaches_beyond(std::span<const Interval> x) const;
   // A solution in x or next to it at which the Jacobian has not its full rank.
   std::optional<LocalSolution> degenerate_solution(std::span<const Interval> x, double share) const;
   std::vector<double> midpoint(std::span<const Interval> x) const;
