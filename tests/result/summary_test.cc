@@ -188,7 +188,7 @@ Result result_at_the_ends() {
 }
 
 // Where there is nothing to cut, nothing was, and sigma is what it had been.
-TEST(Parts, GiveTheWholeTheSigmaOfThoseThatHavePieces) {
+TEST(Summary, OfPartsHasTheSigmaOfThoseThatHavePieces) {
   Result whole = sample_result();
   whole.cover.dimension = 2;
   whole.parts = {whole, whole};
