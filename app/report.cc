@@ -85,10 +85,12 @@ struct ReadView {
 
 ReadView read_one(const std::string& path) {
   auto [result, model, system] = result::read_to_show(path);
-  if (study::is_whole(result))
-    result = study::cut_for_page(result::read_result(path), {.threads = 0}, report::kPageBoxes, {});
+  const std::size_t uncut = study::is_whole(result) ? result.cover.boxes.size() : 0;
+  if (uncut > 0) result = study::cut_for_page(result, {.threads = 0}, report::kPageBoxes, {});
   const bool given = model.has_own_velocity_equation();
-  return {path, std::move(model), report::set_view(std::move(result), std::move(system), given)};
+  ReadView read{path, std::move(model), report::set_view(std::move(result), std::move(system), given)};
+  if (uncut > 0) note_cut(uncut, read.view);
+  return read;
 }
 
 /// Reads results of one model, and brings them and their paths into the order of the sets' definitions. Returns the model,
@@ -102,11 +104,11 @@ symbolic::Mechanism read_all(std::vector<std::string>& paths, std::vector<report
     if (!added)
       throw result::ResultFileError(
           fmt::format("{}: holds the set {}, which {} holds already", path, set->name, place->second.path));
-    const ReadView& first = by_set.begin()->second;
-    const result::Result &a = place->second.view.result, &b = first.view.result;
+    const ReadView& other = (place == by_set.begin() ? *by_set.rbegin() : *by_set.begin()).second;
+    const result::Result &a = place->second.view.result, &b = other.view.result;
     if (a.model_text != b.model_text || a.options.constants != b.options.constants)
       throw result::ResultFileError(
-          fmt::format("{} and {} are results of different models, or with different constants", path, first.path));
+          fmt::format("{} and {} are results of different models, or with different constants", path, other.path));
   }
   paths.clear();
   for (auto& [set, read] : by_set) {
@@ -139,7 +141,7 @@ ExitStatus write_report(const CLI::App& sub, ReportCommand command) {
     refuse_without_effect(sub,
                           {"--loops", "--sets", "--corank", "--require", "-D", "--sigma", "--cspace-sigma", "--threads",
                            "--max-boxes", "--max-found", "--time-limit", "--memory-limit", "--proof"},
-                          "no --results beside it: these sets are not solved again");
+                          "a model in place of --results, whose sets are not solved again");
   command.search.check_effect(sub);
   command.results.empty() ? command.json.begin(command.question.file) : command.json.check();
   if (!command.results.empty() && !command.question.file.empty())

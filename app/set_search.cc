@@ -84,6 +84,12 @@ std::string SetSearch::command_line(const std::string& subcommand, const Questio
   return text;
 }
 
+void note_cut(std::size_t uncut, report::SetView& view) {
+  if (!report::say_cut(uncut, view))
+    fmt::print(stderr, "corank: {}: its boxes are shown uncut: cut ones are too many for the page, or take too long\n",
+               view.result.set);
+}
+
 std::optional<report::SetView> solve_view(const SetSearch& search, study::Question question, std::size_t index,
                                           std::uint64_t taken, const std::function<void(const result::Result&)>& found) {
   const std::vector<std::string>& sets = search.sets;
@@ -102,7 +108,8 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
   result::Result result = study::answer(systems, options, control);
   line.clear();
   if (found) found(result);
-  if (study::is_whole(result)) {
+  const std::size_t uncut = study::is_whole(result) ? result.cover.boxes.size() : 0;
+  if (uncut > 0) {
     solve::Options page = options.search;
     page.surfaces_whole = page.proof = false;
     result = study::cut_for_page(result, page, search.limits.max_found, limits_of_set, control.search_progress);
@@ -110,8 +117,10 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
   System system =
       systems.parts.front().part ? result::system_of(question.model, result) : std::move(systems.of_parts.front());
   const solve::Control of_view(limits_of_set);
-  return report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation(),
-                          [&] { return of_view.overdue() || Interrupt::stop(); });
+  report::SetView view = report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation(),
+                                          [&] { return of_view.overdue() || Interrupt::stop(); });
+  if (uncut > 0) note_cut(uncut, view);
+  return view;
 }
 
 }  // namespace corank::app

@@ -36,6 +36,9 @@ struct SetSearch {
   solve::Options options_of(symbolic::SingularitySet set) const;
 };
 
+/// report::say_cut, also on standard error where it does not show them cut.
+void note_cut(std::size_t uncut, report::SetView& view);
+
 /// Searches set `index` of those that `search` names, showing its progress; others on the page take `taken` bytes. Nothing
 /// where the set has many parts and time ran out, or a signal came, before the equations of all were derived. `found` gets
 /// the result with its proven sheets whole, unless σ is asked for, before they are cut for the page.

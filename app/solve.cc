@@ -190,6 +190,9 @@ ExitStatus refine(const CLI::App& sub, const SolveCommand& command) {
   options.surfaces_whole = false;
   options.validate();
   check_output(command.result_path);
+  if (std::error_code ignored; std::filesystem::equivalent(command.refine_path, command.result_path, ignored))
+    throw UsageError(
+        "-o: not overwritten, because it is the result to cut, with its sheets and its proof; expected another file");
   command.json.check();
   LimitedRun run(limits_of(options, nullptr));
   solve::Control& control = run.control();

@@ -17,6 +17,7 @@
 #include "corank/report/pictures/picture.h"
 #include "corank/report/pictures/portrait.h"
 #include "corank/result/files/verification.h"
+#include "corank/study/cut.h"
 
 namespace corank::python {
 namespace {
@@ -26,6 +27,7 @@ std::vector<report::SetView> views_of(const symbolic::Mechanism& mechanism, cons
   for (const Result& r : results) {
     System system = result::system_of(mechanism, *r);
     views.push_back(report::set_view(r.on_page(), std::move(system), mechanism.has_own_velocity_equation()));
+    if (study::is_whole(*r)) say_cut(r->cover.boxes.size(), views.back());
   }
   return views;
 }

@@ -56,6 +56,13 @@ py::dict box_arrays(const std::shared_ptr<const BoxArrays>& a) {
   return arrays;
 }
 
+py::array_t<bool> on_parts_of_sheets(const Result& r) {
+  const std::vector<bool> list = result::on_parts_of_sheets(*r);
+  py::array_t<bool> array(static_cast<py::ssize_t>(list.size()));
+  std::ranges::copy(list, array.mutable_data());
+  return array;
+}
+
 // n × 2, in radians: of each box the angles over its cosines and sines.
 py::array_t<double> angle_enclosures(const Result& r, const std::string& name, bool of_points) {
   for (const Angle& angle : r->angles) {
@@ -169,8 +176,7 @@ const result::Result& Result::cut(Cut& known, std::uint64_t most) const {
 
 const result::Result& Result::on_page() const { return cut(*on_page_, report::kPageBoxes); }
 
-BoxArrays::BoxArrays(const Cover& cover, const std::vector<CoverBox>& boxes, std::size_t n)
-    : size(boxes.size()), variables(n) {
+BoxArrays::BoxArrays(const std::vector<CoverBox>& boxes, std::size_t n) : size(boxes.size()), variables(n) {
   bounds.reserve(2 * size * n);
   free.assign(size * n, 0);
   for (const auto& [name, of] : kBytes) bytes.emplace_back(name, std::vector<std::uint8_t>()).second.reserve(size);
@@ -179,8 +185,7 @@ BoxArrays::BoxArrays(const Cover& cover, const std::vector<CoverBox>& boxes, std
     const CoverBox& b = boxes[i];
     CORANK_CHECK(b.box.size() == n);
     for (const Interval& side : b.box) bounds.insert(bounds.end(), {side.lo(), side.hi()});
-    if (spans(cover, b))
-      for (const int j : b.free) free[i * n + static_cast<std::size_t>(j)] = 1;
+    for (const int j : b.free) free[i * n + static_cast<std::size_t>(j)] = 1;
     for (std::size_t k = 0; k < kBytes.size(); ++k) bytes[k].second.push_back(kBytes[k].second(b));
     for (std::size_t k = 0; k < kNumbers.size(); ++k) numbers[k].second.push_back(kNumbers[k].second(b));
   }
@@ -205,7 +210,7 @@ void bind_result(py::module_& module) {
     std::optional<std::vector<std::tuple<std::string, double, double>>> list;
     if (const auto sample = result::sample(*r)) {
       list.emplace();
-      for (const result::Value& v : result::values(*sample->of, *sample->box, sample->of->configuration_size))
+      for (const result::Value& v : result::values(*sample->of, sample->box, sample->of->configuration_size))
         list->emplace_back(v.name, v.value.lo(), v.value.hi());
     }
     return list;
@@ -233,6 +238,7 @@ void bind_result(py::module_& module) {
   });
   type.def("boxes", [](const Result& r) { return box_arrays(r.boxes()); });
   type.def("points", [](const Result& r) { return box_arrays(r.points()); });
+  type.def("on_parts_of_sheets", &on_parts_of_sheets);
   type.def("angle_enclosures", &angle_enclosures);
   type.def("table", [](const Result& r) { return result::to_table(*r); });
   type.def("json", [](const Result& r) { return result::to_json(*r); });

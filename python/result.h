@@ -15,11 +15,11 @@ namespace corank::python {
 
 /// The boxes of a cover, one row to a box, in the layout that NumPy shows: looked at without copying.
 struct BoxArrays {
-  BoxArrays(const Cover& cover, const std::vector<CoverBox>& boxes, std::size_t variables);
+  BoxArrays(const std::vector<CoverBox>& boxes, std::size_t variables);
 
   std::size_t size = 0, variables = 0;
   std::vector<double> bounds;      ///< size × variables × 2: lower and upper ends
-  std::vector<std::uint8_t> free;  ///< size × variables: 1 where the variable is free, and the box spans() that side
+  std::vector<std::uint8_t> free;  ///< size × variables: 1 where the variable is free
   /// Members of CoverBox by name: indices of Verdict, Reason, Passage and bits of SingularityType; numbers.
   std::vector<std::pair<const char*, std::vector<std::uint8_t>>> bytes;
   std::vector<std::pair<const char*, std::vector<std::int32_t>>> numbers;
@@ -42,7 +42,7 @@ class Result {
  private:
   std::shared_ptr<const BoxArrays> arrays(const std::vector<CoverBox>& boxes,
                                           std::shared_ptr<const BoxArrays>& known) const {
-    if (!known) known = std::make_shared<const BoxArrays>(value_->cover, boxes, value_->variables.size());
+    if (!known) known = std::make_shared<const BoxArrays>(boxes, value_->variables.size());
     return known;
   }
 

@@ -86,22 +86,28 @@ std::optional<std::string> other_names(const kinematics::Robot& robot) {
   return "an output that is a joint has the joint's name, here and in results: " + list;
 }
 
-// Ranges of angles that look like degrees: they limit nothing.
-std::optional<std::string> wide_ranges(const kinematics::Robot& robot, const symbolic::Mechanism& mechanism) {
-  constexpr double kMost = 12 * std::numbers::pi;  // more turns than joints without gears make
-  std::map<std::string, double> values;
-  for (const symbolic::Constant& c : mechanism.constants()) values[c.name] = symbolic::evaluate(c.value, values);
-  std::string list;
+// Those of a robot's joints that are angles, with the ranges that their author gave them.
+std::vector<symbolic::Coordinate> angles_of(const kinematics::Robot& robot) {
+  std::vector<symbolic::Coordinate> list;
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const kinematics::Joint& joint = robot.joints[j];
-    if (joint.kind != kinematics::JointKind::revolute || !joint.range() || robot.is_coupled(j)) continue;
-    const auto at = [&](const symbolic::Expression& e) { return symbolic::evaluate(e, values); };
-    if (at(joint.range()->upper) - at(joint.range()->lower) <= kMost) continue;
-    list += (list.empty() ? "" : ", ") + joint.name;
+    if (joint.kind == kinematics::JointKind::revolute && joint.range() && !robot.is_coupled(j))
+      list.push_back({joint.name, symbolic::CoordinateKind::angle, joint.range()->lower, joint.range()->upper, {}});
   }
-  if (list.empty()) return std::nullopt;
-  return fmt::format("the range of {} is more than six turns and limits nothing; numbers are radians, 90 degrees are 90deg",
-                     list);
+  return list;
+}
+
+// Ranges of angles that look like degrees: they limit nothing.
+void note_wide_ranges(const std::vector<symbolic::Coordinate>& coordinates, Model& model) {
+  constexpr double kMost = 12 * std::numbers::pi;  // more turns than joints without gears make
+  const std::map<std::string, double> values = symbolic::constant_values(model.mechanism);
+  std::string list;
+  for (const symbolic::Coordinate& c : coordinates)
+    if (c.kind == symbolic::CoordinateKind::angle && evaluate(c.upper, values) - evaluate(c.lower, values) > kMost)
+      list += (list.empty() ? "" : ", ") + c.name;
+  if (!list.empty())
+    model.notices.push_back(fmt::format(
+        "the range of {} is more than six turns and limits nothing; numbers are radians, 90 degrees are 90deg", list));
 }
 
 // Poses in one orientation, of which the position alone is an output (kinematics::assemble).
@@ -132,7 +138,7 @@ Model from_robot(kinematics::Robot robot, const std::vector<result::ConstantOver
                                     symbolic::to_model(model.mechanism));
   for (const auto& one : model.assembly->parallelograms) model.notices.push_back(flat_positions(one));
   if (const auto names = other_names(robot)) model.notices.push_back(*names);
-  if (const auto wide = wide_ranges(robot, model.mechanism)) model.notices.push_back(*wide);
+  note_wide_ranges(angles_of(robot), model);
   if (const auto positions = only_positions(robot, *model.assembly)) model.notices.push_back(*positions);
   if (const auto special = paradox(*model.assembly)) model.notices.push_back(*special);
   return model;
@@ -168,6 +174,7 @@ Model parse_model(const ModelText& model, const std::vector<result::ConstantOver
   result::put_in(constants, read.mechanism);
   for (const result::ConstantOverride& o : constants)  // whether or not an equation has it
     symbolic::exact_value(read.mechanism, symbolic::Expression::symbol(o.name), o.name);
+  note_wide_ranges(read.mechanism.coordinates(), read);
   return read;
 }
 

@@ -62,6 +62,9 @@ def result_html(result: "Result") -> str:
         f"cosines; {html.escape(state)}</p>"
     )
     rows = [[word, n] for word, n in result.counts.items()] + [["all", len(result)]]
+    some = result.summary["parts_of_sheets"]
+    if some:
+        rows.append(["with a part of a sheet", some])
     text = head + _table(rows, ["verdict", "boxes"])
     points = result.points
     if points:

@@ -175,9 +175,16 @@ class Result:
     @property
     def free(self) -> np.ndarray:
         """Is the variable free in the box? bool of shape (n, variables), not copied. For every value of the free variables
-        in a `regular` box there is exactly one solution in it. A `regular` box without free variables holds a part of a
-        sheet (doc/theory.md, "Verdicts")."""
+        in a `regular` box there is exactly one solution in it, or at most one if it is among `parts_of_sheets`. If the set
+        has `parts`, these know the free variables of such boxes."""
         return self._arrays["free"]
+
+    @property
+    def parts_of_sheets(self) -> np.ndarray:
+        """Does the box hold a part of a sheet only: at most one solution for each value of the free variables, and one for
+        some? bool of shape (n,), False for boxes that are neither `regular` nor `boundary`."""
+        require("numpy")
+        return self._core.on_parts_of_sheets()
 
     @property
     def types(self) -> Dict[str, np.ndarray]:
@@ -339,8 +346,8 @@ class Result:
     # --- what to do with it ---
 
     def to_pandas(self, angles: bool = False, kernel: bool = False) -> "pandas.DataFrame":
-        """Returns a data frame with a row for each box: its verdict, and for each variable NAME_mid, NAME_lo and NAME_hi,
-        the middle and the ends of its side.
+        """Returns a data frame with a row for each box: its verdict, for each variable NAME_mid, NAME_lo and NAME_hi, the
+        middle and the ends of its side, and part_of_sheet (`parts_of_sheets`).
 
         Args:
             angles: add the columns of each angle, in radians.
@@ -358,6 +365,7 @@ class Result:
         for name, ends in sides.items():
             columns[f"{name}_mid"] = 0.5 * ends[:, 0] + 0.5 * ends[:, 1]
             columns[f"{name}_lo"], columns[f"{name}_hi"] = ends[:, 0], ends[:, 1]
+        columns["part_of_sheet"] = self.parts_of_sheets
         return pandas.DataFrame(columns)
 
     def save(self, path: PathLike) -> None:

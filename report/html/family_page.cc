@@ -75,7 +75,8 @@ std::string family_model(const std::vector<FamilyMember>& members, const FamilyO
 }
 
 struct Totals {
-  std::size_t covers = 0, complete = 0, boxes = 0, proven = 0, border = 0, partial = 0, undecided = 0, pending = 0;
+  std::size_t covers = 0, complete = 0, boxes = 0, proven = 0, parts = 0, border = 0, partial = 0, undecided = 0,
+              pending = 0;
   double finest = HUGE_VAL, coarsest = 0;
 };
 
@@ -88,6 +89,7 @@ Totals totals_of(const std::vector<FamilyMember>& members) {
       t.complete += cover.complete() ? 1 : 0;
       t.boxes += cover.boxes.size();
       t.proven += cover.count(Verdict::regular) + cover.count(Verdict::isolated) + cover.count(Verdict::exact);
+      t.parts += result::parts_of_sheets(view.result);
       t.border += cover.count(Verdict::boundary);
       t.partial += cover.count(Verdict::partial);
       t.undecided += cover.count(Verdict::undecided);
@@ -123,11 +125,12 @@ Findings family_words(const std::vector<FamilyMember>& members, const FamilyOpti
   if (t.proven > 0)
     words.proven.push_back(
         fmt::format("{} of all {} boxes ({}) are proven to hold solutions: exactly one for every value of their free "
-                    "coordinates.",
-                    grouped(t.proven), grouped(t.boxes), percentage(t.proven, t.boxes)));
+                    "coordinates{}.",
+                    grouped(t.proven), grouped(t.boxes), percentage(t.proven, t.boxes),
+                    t.parts > 0 ? ", or at most one in boxes that hold parts of sheets" : ""));
   if (t.border > 0)
-    words.proven.push_back(fmt::format("In {} boxes the same is proven for a piece that may reach beyond the search domain.",
-                                       grouped(t.border)));
+    words.proven.push_back(
+        fmt::format("In {} the set is smooth, but may reach beyond the search domain.", result::counted(t.border, "box")));
   if (t.partial > 0)
     words.unproven.push_back(fmt::format("In {} boxes only independent equations are proven to hold.", grouped(t.partial)));
   if (t.undecided > 0)

@@ -37,8 +37,8 @@ struct FamilyOptions {
 /// Requires a member. Throws std::invalid_argument where an axis is no coordinate, or the members' sets differ.
 std::string family_page(const std::vector<FamilyMember>& members, const FamilyOptions& options);
 
-/// What stands on it, as JSON: {"model", "constant", "page", "complete", "members": [{"value", "sets": [{…, "file"}]}]}, of
-/// each set what corank solve --json prints of it. `page`: the page's file.
+/// What stands on it, as JSON: {"model", "constant", "page", "complete", "members": [{"value", "sets": [{…}]}]}, of each
+/// set the same as page_summary says. `page`: the page's file.
 std::string family_summary(const std::string& model, const std::string& constant, const std::string& page,
                            const std::vector<FamilyMember>& members, bool complete);
 

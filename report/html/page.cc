@@ -6,6 +6,7 @@
 #include "corank/report/html/page_data.h"
 #include "corank/report/html/page_words.h"
 #include "corank/report/html/template_data.h"
+#include "corank/result/values/tallies.h"
 #include "corank/result/values/words.h"
 #include "corank/symbolic/model/display_name.h"
 #include "corank/symbolic/model/model_file.h"
@@ -107,6 +108,7 @@ std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<
   page["aspectsData"] = aspects_data;
   page["passages"] = std::ranges::any_of(views, [](const SetView& v) { return !v.result.outputs.empty(); });
   page["figures"] = list_of("figure", options.figures);
+  page["partsOfSheets"] = std::ranges::any_of(views, [](const SetView& v) { return result::parts_of_sheets(v.result) > 0; });
   page["hasFigures"] = !options.figures.empty();
   page["hasFiles"] = !options.files.empty();
   return filled(kPageTemplate, page);

@@ -28,8 +28,8 @@ struct PageOptions {
 std::string report_page(const symbolic::Mechanism& mechanism, const std::vector<SetView>& views,
                         const PageOptions& options = {});
 
-/// What stands on it, as JSON: {"model", "page", "figures", "complete", "sets": [{…, "file"}]}, of each set what corank
-/// solve --json prints of it. `page`: the page's file.
+/// What stands on it, as JSON: {"model", "page", "figures", "complete", "sets": [{…, "file", "boxes_in_file"}]}, of each set
+/// what corank solve --json prints of the boxes on the page. `page`: the page's file.
 std::string page_summary(const std::string& model, const std::string& page, const PageOptions& options,
                          const std::vector<SetView>& views, bool complete);
 

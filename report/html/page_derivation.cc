@@ -77,9 +77,9 @@ std::string union_html(const SetView& view) {
                                                     relations_html(part.condition), part.part == part.condition ? "" : name);
   }
   return fmt::format(
-      "<details><summary>{}: the union of {} parts</summary><p>The assembly constraints and one of these {}:</p><div "
+      "<details><summary>{}: the union of {}</summary><p>The assembly constraints and one of these {}:</p><div "
       "class=\"scroll\"><ol class=\"equations\">{}</ol></div></details>",
-      view.words.title, view.result.parts.size(),
+      view.words.title, result::counted(view.result.parts.size(), "part"),
       view.set->of_requirements ? "requirements at its limit"
                                 : "equations, in which the determinant of the block above factors",
       list);

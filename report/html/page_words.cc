@@ -120,8 +120,11 @@ void say_passages(const result::Result& result, SetWords& words) {
         fmt::format("In {} it is open whether the output can pass.", boxes_text(boxes(Passage::unproven))));
 }
 
-/// Of a union.
+/// Of a product, and of a union.
 void say_parts(const result::Result& result, SetWords& words) {
+  if (!result.free_coordinates.empty())
+    words.proven.push_back(fmt::format("The set is a product: solutions stay solutions for every {}.",
+                                       result::listed(result.free_coordinates)));
   if (result.parts.size() < 2 || !result.outputs.empty()) return;
   const auto part = [](const result::Result& r) {
     return fmt::format("{} ({}{})", r.part, boxes_text(r.cover.boxes.size()), result::free_text(r));
@@ -137,23 +140,26 @@ void say_pieces(const result::Result& result, const Components& found, SetWords&
   const auto counts = cover.counts();
   const auto count = [&](Verdict verdict) { return counts[index(verdict)]; };
   const std::size_t regular = count(Verdict::regular), boundary = count(Verdict::boundary);
-  const std::size_t sheets = result::parts_of_sheets(result) == 0 ? regular : how_many(cover.boxes, [&](const auto& b) {
-    return b.verdict == Verdict::regular && spans(cover, b);
-  });
-  const std::string coordinates = result::counted(cover.dimension, "free coordinate");
+  std::size_t some = 0;  // of the regular ones: with parts of sheets
+  const std::vector<bool> parts = result::on_parts_of_sheets(result);
+  for (std::size_t i = 0; i < parts.size(); ++i) some += parts[i] && cover.boxes[i].verdict == Verdict::regular;
+  const std::size_t sheets = regular - some;
+  const std::string coordinates = result::counted(cover.dimension, "free coordinate"),
+                    of = result.parts.size() > 1 ? "one of its parts" : "the set";
   if (sheets > 0)
+    words.proven.push_back(
+        fmt::format("In {} of {} boxes ({}) {} is one smooth piece: for every value of {} there is exactly one solution.",
+                    grouped(sheets), grouped(cover.boxes.size()), percentage(sheets, cover.boxes.size()), of, coordinates));
+  if (some > 0)
     words.proven.push_back(fmt::format(
-        "In {} of {} boxes ({}) the {} is one smooth piece: for every value of {} there is exactly one solution.",
-        grouped(sheets), grouped(cover.boxes.size()), percentage(sheets, cover.boxes.size()),
-        result.parts.size() > 1 ? "part that it is of" : "set", coordinates));
-  if (regular > sheets)
-    words.proven.push_back(fmt::format(
-        "In {} boxes the set is smooth, but may leave the box: for each value of {} there is at most one solution, "
-        "and for some there is one.",
-        grouped(regular - sheets), coordinates));
+        "In {} {} is smooth, but may leave the box: for each value of {} there is at most one solution, and for some values "
+        "there is one.",
+        boxes_text(some), of, coordinates));
   if (boundary > 0)
     words.proven.push_back(
-        fmt::format("In {} the same is proven for a piece that may reach beyond the search domain.", boxes_text(boundary)));
+        fmt::format("In {} {} is smooth, but may reach beyond the search domain: within, for each value of {} there is at "
+                    "most one solution.",
+                    boxes_text(boundary), of, coordinates));
   if (found.count > 1 && count(Verdict::pending) == 0)
     words.proven.push_back(fmt::format("No two of the {} components are connected; {} of them {} proven to hold solutions.",
                                        found.count, found.with_proven_solution,

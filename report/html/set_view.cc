@@ -1,6 +1,7 @@
 #include "corank/report/html/set_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "corank/core/box_tree.h"
@@ -8,6 +9,7 @@
 #include "corank/result/files/hdf5_file.h"
 #include "corank/result/files/verification.h"
 #include "corank/result/values/tallies.h"
+#include "corank/result/values/words.h"
 #include "corank/symbolic/model/model_error.h"
 
 namespace corank::report {
@@ -32,6 +34,14 @@ Components components(const std::vector<CoverBox>& boxes, std::size_t configurat
   found.count = proven.size();
   found.with_proven_solution = result::how_many(proven, std::identity());
   return found;
+}
+
+bool say_cut(std::size_t uncut, SetView& view) {
+  view.uncut = uncut;
+  const bool is_cut = std::isfinite(view.result.cover.sigma.largest());
+  view.words.meaning += "; drawn here: its " + grouped(uncut) + " " + result::noun(uncut, "box");
+  view.words.meaning += is_cut ? ", cut to σ" : " uncut, since cut ones are too many for the page, or take too long";
+  return is_cut;
 }
 
 SetView set_view(result::Result result, System system, bool given_velocity_equation, const Ended& ended) {

@@ -16,9 +16,15 @@ struct SetView {
   Components components;
   SetWords words;
   std::vector<CoverBox> hulls;  ///< drawn in place of boxes that are too many (drawn_boxes.h); else empty
+  std::size_t uncut = 0;        ///< how many boxes there were before they were cut for the page (say_cut); 0: they were not
 
   const std::vector<CoverBox>& drawn() const { return hulls.empty() ? result.cover.boxes : hulls; }
+  std::size_t in_file() const { return uncut > 0 ? uncut : result.cover.boxes.size(); }
 };
+
+/// Of a result of so many boxes that a page is to show cut: adds to the words that it does so, or that it does not. Returns
+/// false where it does not.
+bool say_cut(std::size_t uncut, SetView& view);
 
 /// Of a result and the system that was solved; whether its velocity equation is given changes words.
 SetView set_view(result::Result result, System system, bool given_velocity_equation, const Ended& ended = {});

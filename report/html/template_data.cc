@@ -49,6 +49,7 @@ TemplateData run_of(const SetView& view, const std::string& file) {
   row["processed"] = grouped(cover.statistics.processed);
   row["seconds"] = fmt::format("{:.2f}", cover.statistics.seconds_total);
   row["file"] = file;
+  row["inFile"] = grouped(view.in_file());
   return row;
 }
 
@@ -85,6 +86,7 @@ Json summaries(const std::vector<SetView>& views, const std::vector<std::string>
   for (std::size_t k = 0; k < views.size(); ++k) {
     sets.push_back(Json::parse(result::to_json(views[k].result)));
     sets.back()["file"] = files.at(k);
+    sets.back()["boxes_in_file"] = views[k].in_file();
   }
   return sets;
 }

@@ -275,7 +275,7 @@ Verification verify(const Result& result, const System& system, const check::Opt
 }
 
 ReadResult read_to_show(const std::filesystem::path& path) {
-  Result result = read_result(path, {.free = false});
+  Result result = read_result(path);
   symbolic::Mechanism model = model_of(result);
   System system = system_of(model, result);
   std::vector<std::string> wrong = contradictions(result, system);

@@ -52,9 +52,8 @@ struct ReadResult {
   symbolic::Mechanism model;
   System system;
 };
-/// Reads a result that may be anybody's, without what only a check needs, and puts words beside it (describe_in_words). What
-/// it says of its variables has to be so before a picture relies on it: throws ResultFileError where it contradicts the
-/// model in it.
+/// Reads a result that may be anybody's, and puts words beside it (describe_in_words). What it says of its variables has to
+/// be so before a picture relies on it: throws ResultFileError where it contradicts the model in it.
 ReadResult read_to_show(const std::filesystem::path& path);
 
 /// A table of counts per verdict, the completeness proof, the first failures.

@@ -116,6 +116,10 @@ void merge_parts(Result& whole) {
   // A part that was never searched was perhaps not reduced, either: its dimension says nothing, unless there is no other.
   const auto is_searched = [](const Result& part) { return part.cover.statistics.processed > 0 || part.cover.complete(); };
   const bool some_searched = std::ranges::any_of(whole.parts, is_searched);
+  const auto has_pieces = [&](const Result& part) {  // to cut: the sigma of others says nothing
+    return is_searched(part) && part.cover.dimension > 0 && !part.cover.boxes.empty();
+  };
+  const bool some_pieces = std::ranges::any_of(whole.parts, has_pieces);
   for (std::size_t i = 0; i < whole.parts.size(); ++i) {
     const Result& part = whole.parts[i];
     const std::vector<int> from = places(whole, part);
@@ -124,8 +128,8 @@ void merge_parts(Result& whole) {
       for (const CoverBox& box : *own) all->push_back(of_whole(box, from, whole, static_cast<int>(i), before));
     if (!leaves_out(from))
       for (const ExactPoint& point : part.cover.exact_points) cover.exact_points.push_back(of_whole(point, from));
-    if (is_searched(part) || !some_searched) {
-      cover.dimension = std::max(cover.dimension, dimension_of(part));
+    if (is_searched(part) || !some_searched) cover.dimension = std::max(cover.dimension, dimension_of(part));
+    if (some_pieces ? has_pieces(part) : is_searched(part) || !some_searched) {
       cover.sigma.length = std::max(cover.sigma.length, part.cover.sigma.length);
       cover.sigma.angle = std::max(cover.sigma.angle, part.cover.sigma.angle);
     }

@@ -29,7 +29,7 @@ std::string sample_text(const Sample& sample) {
   constexpr int kDigits = 6;
   constexpr std::size_t kMost = 8;
   std::vector<std::string> texts;
-  for (const Value& v : values(*sample.of, *sample.box, sample.of->configuration_size)) {
+  for (const Value& v : values(*sample.of, sample.box, sample.of->configuration_size)) {
     if (texts.size() == kMost) return fmt::format("{} … (all coordinates: --json)", fmt::join(texts, ", "));
     texts.push_back(fmt::format("{} = {:.{}g}", v.name, v.value.mid(), kDigits));
   }
@@ -147,6 +147,20 @@ std::string held_and_not_locked(const Result& result, symbolic::Role locked) {
   }
 }
 
+// Of a robot's equations: coordinates with ranges that do not end its workspace, where nothing else is said to limit it.
+std::vector<std::string> ranges_without_limits(const Result& result) {
+  std::vector<std::string> names;
+  const symbolic::Mechanism model = model_of(result);
+  if (!model.limits().empty()) return names;
+  for (const symbolic::Coordinate& c : model.coordinates()) {
+    const auto angle = std::ranges::find(result.angles, c.name, &Angle::name);
+    const bool is_round = angle != result.angles.end() && angle->range.width() > 6.28;
+    if (c.has_range && !c.auxiliary && !is_round && !is_fixed(c) && role_of(model, c.name) != symbolic::Role::output)
+      names.push_back(c.name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::optional<Sample> sample(const Result& result) {
@@ -154,7 +168,11 @@ std::optional<Sample> sample(const Result& result) {
   const Result& from = of_configurations(result);
   const auto found = std::ranges::find_if(from.cover.boxes, is_surely_within, &CoverBox::verdict);
   if (found == from.cover.boxes.end()) return std::nullopt;
-  return Sample{&from, &*found};
+  CoverBox box = *found;
+  if (box.region >= 0)
+    for (std::size_t j = 0; j < box.box.size(); ++j) box.box[j].intersect(from.cover.regions[box.region][j]);
+  for (const int j : box.free) box.box[j] = box.box[j].mid();
+  return Sample{&from, std::move(box)};
 }
 
 std::optional<bool> assembled(const Result& result) {
@@ -174,6 +192,10 @@ std::vector<std::string> assembly_sentences(const Result& result) {
                                 sample_text(*sample(result))
                           : "the robot cannot be assembled within its ranges: it is proven that it has no configuration");
   }
+  if (symbolic::definition(result.set).of_parts)
+    if (const auto names = ranges_without_limits(result); !names.empty())
+      list.push_back(fmt::format("no [LIMITS] are declared, so the workspace does not end at the {} of {}",
+                                 noun(names.size(), "range"), listed(names)));
   if (result.nearly_solved)
     list.push_back(fmt::format(
         "there are solutions if the coefficients may vary by {0:g} of their size: equations that depend on each other "

@@ -13,10 +13,11 @@ namespace corank::result {
 /// true: a configuration is proven to exist. false: it is proven that there is none. Nothing: neither is known, or the
 /// result is of a plain system.
 std::optional<bool> assembled(const Result& result);
-/// A configuration that is proven to exist: in the box, in the first `configuration_size` variables of `of`.
+/// A configuration that is proven to exist: in the box, in the first `configuration_size` variables of `of`. It is the one
+/// over the middle of the free variables' sides, in the region of its proof.
 struct Sample {
   const Result* of = nullptr;  ///< the result, or its assembly
-  const CoverBox* box = nullptr;
+  CoverBox box;
 };
 /// Nothing where assembled() is not true.
 std::optional<Sample> sample(const Result& result);

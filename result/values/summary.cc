@@ -276,8 +276,8 @@ std::string to_table(const Result& result) {
   }
   text += fmt::format("  {:<10}  {:>10}   ({} processed)\n", "all", cover.boxes.size(), cover.statistics.processed);
   if (const std::size_t some = parts_of_sheets(result); some > 0)
-    text += fmt::format("  {} of these hold a part of a sheet: at most one solution for each value of the free variables\n",
-                        some);
+    text += fmt::format("  {} of these {} a part of a sheet: at most one solution for each value of the free variables\n",
+                        some, some == 1 ? "holds" : "hold");
   text += reasons_text(result);
   if (result.seems_of_corank > result.options.corank)
     text += fmt::format("    the kernel there seems to have dimension {0}: try --corank {0}, or --kernel none\n",

@@ -25,8 +25,8 @@ std::string to_table(const Result& result);
 
 /// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, stopped (null, or by
 /// what and in which stage), boxes{processed, regular, isolated, exact, boundary, partial, undecided, pending},
-/// undecided_reasons{reason: boxes}, observed_dimension, self_motions[{dimension, boxes, relations, text}],
-/// boundary_reasons, range_ends, no_limits, ranges_found, tolerances, points, meaning, node_distance, kernel,
+/// parts_of_sheets (boxes), undecided_reasons{reason: boxes}, observed_dimension, self_motions[{dimension, boxes, relations,
+/// text}], boundary_reasons, range_ends, no_limits, ranges_found, tolerances, points, meaning, node_distance, kernel,
 /// free_coordinates, seconds{total, search, certify}, version. Every double reads back as the same double; sigma is null
 /// where it is infinite.
 ///

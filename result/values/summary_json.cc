@@ -120,7 +120,7 @@ Json sample_json(const Result& result) {
   const std::optional<Sample> found = sample(result);
   if (!found) return {};
   Json json = Json::object();
-  for (const Value& v : values(*found->of, *found->box, found->of->configuration_size)) json[v.name] = ends(v.value);
+  for (const Value& v : values(*found->of, found->box, found->of->configuration_size)) json[v.name] = ends(v.value);
   return json;
 }
 
@@ -196,6 +196,7 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
   const auto counts = cover.counts();
   for (const Verdict verdict : kVerdictsInOrder)
     json["boxes"][to_string(verdict)] = counts[static_cast<std::size_t>(verdict)];
+  json["parts_of_sheets"] = parts_of_sheets(result);
   json["undecided_reasons"] = Json::object();
   for (const auto& [reason, n] : undecided_reasons(cover)) json["undecided_reasons"][to_string(reason)] = n;
   json["observed_dimension"] = cover.observed_dimension > 0 ? Json(cover.observed_dimension) : Json();

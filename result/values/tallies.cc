@@ -1,5 +1,8 @@
 #include "corank/result/values/tallies.h"
 
+#include <functional>
+#include <iterator>
+
 #include "corank/certify/angle.h"
 
 namespace corank::result {
@@ -17,14 +20,18 @@ std::array<std::size_t, kPassages> passages(const Cover& cover) {
   return result;
 }
 
-std::size_t parts_of_sheets(const Result& result) {
-  std::size_t sum = 0;
-  for (const Result& part : result.parts) sum += parts_of_sheets(part);
-  if (!result.parts.empty()) return sum;
-  return how_many(result.cover.boxes, [&](const CoverBox& b) {
-    return (b.verdict == Verdict::regular || b.verdict == Verdict::boundary) && !spans(result.cover, b);
-  });
+std::vector<bool> on_parts_of_sheets(const Result& result) {
+  std::vector<bool> list;
+  list.reserve(result.cover.boxes.size());
+  for (const Result& part : result.parts) std::ranges::copy(on_parts_of_sheets(part), std::back_inserter(list));
+  if (result.parts.empty())
+    for (const CoverBox& b : result.cover.boxes)
+      list.push_back((b.verdict == Verdict::regular || b.verdict == Verdict::boundary) && !spans(result.cover, b));
+  list.resize(result.cover.boxes.size());  // a stranger's parts may have any number
+  return list;
 }
+
+std::size_t parts_of_sheets(const Result& result) { return how_many(on_parts_of_sheets(result), std::identity()); }
 
 std::size_t boxes_on(const Cover& cover, std::size_t motion) {
   return how_many(cover.boxes, [motion](const CoverBox& box) { return box.motion == static_cast<int>(motion); });

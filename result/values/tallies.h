@@ -33,7 +33,10 @@ std::map<Reason, std::size_t> undecided_reasons(const Cover& cover);
 /// How many boxes there are with each passage, in the order of Passage.
 std::array<std::size_t, kPassages> passages(const Cover& cover);
 
-/// Smooth pieces of which it is not shown that they have a solution for every value of the free variables (spans).
+/// Of each box: is it a smooth piece of which it is not shown that it has a solution for every value of the free variables
+/// (spans)? A whole has the boxes of its parts, in their order, of which only these know.
+std::vector<bool> on_parts_of_sheets(const Result& result);
+/// How many there are.
 std::size_t parts_of_sheets(const Result& result);
 
 /// Boxes that lie on the self-motion of that number.

@@ -23,8 +23,8 @@ struct LocalSolution {
 std::optional<LocalSolution> local_solution(const Problem& problem, std::vector<double> start, double tolerance,
                                             double reach = HUGE_VAL);
 
-/// A small box about a solution in x, as Newton's method in doubles leads to it; nothing where it leads out of x. By the last
-/// preconditioner, which is that at x's midpoint.
+/// A small box about a solution in x, as Newton's method in doubles leads to it; nothing where it leads out of x. By the
+/// last preconditioner, which is that at x's midpoint.
 std::optional<Box> box_about_solution(const certify::CompiledSystem& system, const PreconditionerFactory& preconditioners,
                                       std::span<const Interval> x);
 

@@ -88,8 +88,9 @@ void check_chosen(const Mechanism& mechanism, const VelocityEquation& velocity, 
     throw ModelError(
         model_place(mechanism),
         "the model names no " + word + (velocity.given ? " rates" : "s") + ", which the " + set.name + " singularities need",
-        velocity.given ? "a line `name ~ " + word + "` in [RATES]"
-                       : std::string("a line [") + (role == Role::input ? "INPUTS" : "OUTPUTS") + "]");
+        velocity.given        ? "a line `name ~ " + word + "` in [RATES]"
+        : role == Role::input ? "a line [INPUTS], or `actuated` behind a joint of a robot from parts"
+                              : "a line [OUTPUTS]");
   }
   for (const Role role : {Role::input, Role::output}) {
     const Chosen names = chosen(mechanism, velocity, role);

@@ -103,6 +103,16 @@ TEST(Parts, AWorkspacesBoundarySaysWhereItDoesNotLook) {
               HasSubstr("the workspace may also end where arm.cuik:9 (range of elbow) is reached"));
 }
 
+TEST(Parts, AnEmptyBoundaryOfEquationsWithoutLimitsSaysSo) {
+  const TemporaryFolder folder;
+  const std::string crane =
+      "[SYSTEM VARS]\nr : [1, 2]\nt ~\nx :\ny :\n[SYSTEM EQS]\nx = r*cos(t);\ny = r*sin(t);\n[INPUTS] r t\n[OUTPUTS] x y\n";
+  const std::string hint = "no [LIMITS] are declared, so the workspace does not end at the range of r\n";
+  EXPECT_THAT(run_corank({"solve", folder.write("crane.cuik", crane), "--set", "boundary"}).out, HasSubstr(hint));
+  const std::string turning = folder.write("turning.cuik", crane + "[LIMITS]\nt ~ [-1, 1]\n");
+  EXPECT_THAT(run_corank({"solve", turning, "--set", "boundary"}).out, Not(HasSubstr("no [LIMITS]")));
+}
+
 TEST(Parts, ACoordinateIsNotFreeWhereItIsAtItsLimit) {
   const TemporaryFolder folder;
   const std::string carriage = folder.write(

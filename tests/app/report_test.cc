@@ -6,6 +6,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "corank/report/html/page_words.h"
 #include "corank/report/pictures/box_payload.h"
 #include "corank/result/files/result_file.h"
 #include "corank/tests/app/program.h"
@@ -55,7 +56,7 @@ TEST(Report, NamesTheRangesThatCutASet) {
   const std::string file = folder.write("cut.cuik",
                                         "[SYSTEM VARS]\nx : [-1/2, 1/2]\ny :\nt ~\n[SYSTEM EQS]\nx = cos(t);\ny = sin(t);\n"
                                         "[INPUTS] t\n[OUTPUTS] x\n");
-  const std::string sentence = "the end of the declared range of x; nothing beyond was searched.";
+  const std::string sentence = "The set reaches the end of the declared range of x; nothing beyond was searched.";
   const std::string to = folder.file("a"), again = folder.file("b");
   EXPECT_EQ(run_corank({"report", file, "-o", to}).status, 0);
   EXPECT_THAT(read_text(to + "/index.html"), HasSubstr(sentence));
@@ -109,15 +110,31 @@ TEST(Report, TakesConstantsAndSigmas) {
 
 TEST(Report, KeepsSheetsWholeInItsFilesAndCutsThemForThePage) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_corank(
-      {"report", model("planar/3prr"), "--sets", "inverse", "--max-found", "20000", "--proof", "-o", folder.file("r")});
+  const Outcome outcome = run_corank({"report", model("planar/3prr"), "--sets", "inverse", "--max-found", "20000", "--proof",
+                                      "--json", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   const result::Result whole = result::read_result(folder.file("r/inverse.h5"));
   EXPECT_TRUE(std::isinf(whole.cover.sigma.length));
   EXPECT_TRUE(whole.parts[0].cover.proof);
-  const json set = json::parse(script_text(read_text(folder.file("r/index.html")), "model"))["sets"][0];
+  const std::string page = read_text(folder.file("r/index.html"));
+  const json set = json::parse(script_text(page, "model"))["sets"][0];
   EXPECT_GT(set["count"], whole.cover.boxes.size());
   EXPECT_LE(set["count"], 20'000);
+  EXPECT_THAT(page, HasSubstr("; drawn here: its " + report::grouped(whole.cover.boxes.size()) + " boxes, cut to σ</p>"));
+  const json said = json::parse(outcome.out)["sets"][0];
+  EXPECT_EQ(said["boxes_in_file"], whole.cover.boxes.size());
+  EXPECT_GT(said["boxes"]["regular"], whole.cover.boxes.size());
+}
+
+TEST(Report, SaysThatItShowsBoxesUncutWhereCutOnesAreTooMany) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_corank({"report", model("planar/3prr"), "--sets", "cspace", "--max-found", "1000", "-o", folder.file("r")});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("cspace: its boxes are shown uncut: cut ones are too many for the page"));
+  const std::string page = read_text(folder.file("r/index.html"));
+  EXPECT_THAT(page, HasSubstr(" boxes uncut, since cut ones are too many for the page, or take too long</p>"));
+  EXPECT_THAT(page, HasSubstr("or, where the box holds a part of a sheet, at most one</dd>"));
 }
 
 TEST(Report, OfACorankNamesItAndLeavesCSpaceAsItIs) {
@@ -157,8 +174,8 @@ TEST(Report, HasOneProgressLineOverAllSetsAndEndsWithWhatItHasAfterAnInterrupt) 
 
 TEST(Report, RefusesResultsThatDoNotBelongTogether) {
   const TemporaryFolder folder;
-  const auto solve = [&](const std::string& name, const std::vector<std::string>& more) {
-    std::vector<std::string> args{"solve", model("three_slider"), "--set", "forward", "-o", folder.file(name)};
+  const auto solve = [&](const std::string& name, const std::vector<std::string>& more, const std::string& set = "forward") {
+    std::vector<std::string> args{"solve", model("three_slider"), "--set", set, "-o", folder.file(name)};
     args.insert(args.end(), more.begin(), more.end());
     EXPECT_EQ(run_corank(args).status, 0);
     return folder.file(name);
@@ -167,6 +184,12 @@ TEST(Report, RefusesResultsThatDoNotBelongTogether) {
   const Outcome twice = run_corank({"report", "--results", one, same, "-o", folder.file("r")});
   EXPECT_EQ(twice.status, 1);
   EXPECT_THAT(twice.err, HasSubstr("holds the set forward"));
+  const std::string before = solve("before.h5", {}, "cspace");  // in the order of the sets
+  for (const auto& [a, b] : {std::pair(before, other), {other, before}}) {
+    const Outcome different = run_corank({"report", "--results", a, b, "-o", folder.file("r")});
+    EXPECT_EQ(different.status, 1);
+    EXPECT_THAT(different.err, HasSubstr("are results of different models, or with different constants"));
+  }
   const Outcome both = run_corank({"report", model("three_slider"), "--results", other, "-o", folder.file("r")});
   EXPECT_EQ(both.status, 2);
   EXPECT_THAT(both.err, HasSubstr("--results: expected no FILE beside it"));

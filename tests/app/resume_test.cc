@@ -161,6 +161,10 @@ TEST(Refine, CutsTheSheetsOfAnyResult) {
     EXPECT_EQ(run_corank({"verify", fine}).status, 4) << "every claim, but no proof of completeness";
   }
   EXPECT_EQ(run_corank({"solve", "--refine", whole, "--sigma", "0.2"}).status, 2) << "without -o";
+  const std::string before = read_text(whole);
+  EXPECT_THAT(run_corank({"solve", "--refine", whole, "-o", folder.file("./whole.h5")}).err,
+              HasSubstr("-o: not overwritten"));
+  EXPECT_EQ(read_text(whole), before);
   EXPECT_EQ(run_corank({"solve", "--refine", whole, "--sigma", "0.2", "--proof", "-o", fine}).status, 2);
 }
 

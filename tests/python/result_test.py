@@ -1,6 +1,7 @@
 """Results: arrays without copies, points with exact numbers, files, checks, data frames."""
 
 import gc
+import importlib.util
 import pickle
 import weakref
 
@@ -210,6 +211,20 @@ def test_a_data_frame_has_kernel_vectors_where_they_are_asked_for(forward):
     assert kernel and not {c for c in forward.to_pandas().columns if c.split("_")[0] in kernel}
     frame = forward.to_pandas(kernel=True)
     assert (frame[f"{kernel[0]}_hi"].to_numpy() == forward[kernel[0]][:, 1]).all()
+
+
+def test_boxes_say_whether_they_hold_a_part_of_a_sheet(models, forward):
+    m = corank.load(models / "planar" / "3prr.cuik")
+    whole = m.solve("forward", kernel="right")
+    some = whole.parts_of_sheets
+    assert not forward.parts_of_sheets.any() and some.any() and some.sum() == whole.summary["parts_of_sheets"]
+    assert set(whole.verdicts[some]) <= {"regular", "boundary"}
+    assert (whole.free[some].sum(axis=1) == whole.dimension).all(), "their free variables are known"
+    assert "with a part of a sheet" in whole._repr_html_() and "part of a sheet" not in forward._repr_html_()
+    union = m.solve("forward")
+    assert (union.parts_of_sheets == numpy.concatenate([p.parts_of_sheets for p in union.parts])).all()
+    if importlib.util.find_spec("pandas"):
+        assert whole.to_pandas()["part_of_sheet"].sum() == some.sum()
 
 
 def test_a_boundary_has_parts_and_passages(models):

@@ -62,6 +62,31 @@ TEST(SetWords, ClaimSeparatenessOnlyOfACompleteCover) {
   EXPECT_THAT(words.finding, HasSubstr("incomplete"));
 }
 
+TEST(SetWords, SayOfPiecesNoMoreThanIsProven) {
+  result::Result result = boxes({{{{0, 1}, {0, 1}, 0.5}, Verdict::regular}, {{{3, 4}, {0, 1}, 0.5}, Verdict::boundary}});
+  result.free_coordinates = {"x"};
+  const auto proven = [&] { return set_words(result, components(result)).proven; };
+  EXPECT_THAT(proven(),
+              Contains("In 1 box the set is smooth, but may leave the box: for each value of 1 free coordinate there "
+                       "is at most one solution, and for some values there is one."));
+  EXPECT_THAT(proven(),
+              Contains("In 1 box the set is smooth, but may reach beyond the search domain: within, for each value "
+                       "of 1 free coordinate there is at most one solution."));
+  EXPECT_THAT(proven(), Contains("The set is a product: solutions stay solutions for every x."));
+  for (CoverBox& box : result.cover.boxes) box.free = {0};
+  EXPECT_THAT(proven(), Contains(HasSubstr("In 1 of 2 boxes (50.0 %) the set is one smooth piece")));
+  EXPECT_THAT(proven(), Not(Contains(HasSubstr("may leave the box"))));
+}
+
+// A point over all values of what its part leaves out is a whole piece, with no free variables in the list of the whole.
+TEST(SetWords, OfAUnionTakeWholePiecesFromItsParts) {
+  result::Result whole = boxes({{{{0, 1}, {0, 1}, 0.5}, Verdict::regular}, {{{3, 4}, {0, 1}, 0.5}, Verdict::regular}});
+  whole.parts = {boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}}), boxes({{{{3, 4}, {0, 1}, 0.5}, Verdict::regular}})};
+  const std::vector<std::string> proven = set_words(whole, components(whole)).proven;
+  EXPECT_THAT(proven, Contains(HasSubstr("In 1 of 2 boxes (50.0 %) one of its parts is one smooth piece")));
+  EXPECT_THAT(proven, Contains(HasSubstr("In 1 box one of its parts is smooth, but may leave the box")));
+}
+
 TEST(SetWords, CountUndecidedPlacesApartFromPoints) {
   result::Result result = boxes({{{0.5, 0.5, 0.5}, Verdict::isolated}, {{0.75, 0.5, 0.5}, Verdict::undecided}});
   result.cover.dimension = 0;

@@ -236,6 +236,30 @@ TEST(Page, SaysWhereASearchEndedEarly) {
   EXPECT_TRUE(holds(page, "left 1 box unsearched, which may hold solutions"));
 }
 
+TEST(Page, SaysOfBoxesThatItWasToShowCutWhetherItDoes) {
+  const Mechanism mechanism = slider();
+  const SetView view = set_view(mechanism, solved(mechanism, SingularitySet::cspace));
+  SetView cut = view, uncut = view;
+  EXPECT_TRUE(say_cut(7, cut));
+  EXPECT_TRUE(holds(report_page(mechanism, {cut}, {"", {}, {"cspace.h5"}}), "; drawn here: its 7 boxes, cut to σ</p>"));
+  EXPECT_TRUE(holds(report_page(mechanism, {cut}, {"", {}, {"cspace.h5"}}), "cspace.h5</a></td><td>7</td>"));
+  uncut.result.cover.sigma = {HUGE_VAL, HUGE_VAL};
+  EXPECT_FALSE(say_cut(7, uncut));
+  EXPECT_TRUE(holds(report_page(mechanism, {uncut}), "; drawn here: its 7 boxes uncut, since cut ones are too many"));
+}
+
+TEST(Page, SaysOfRegularBoxesWhatHoldsForAllOfThem) {
+  const Mechanism mechanism = slider();
+  result::Result result = solved(mechanism, SingularitySet::cspace);
+  const std::string of_parts = "or, where the box holds a part of a sheet, at most one</dd>";
+  EXPECT_FALSE(holds(report_page(mechanism, {set_view(mechanism, result)}), of_parts));
+  CoverBox& box = *std::ranges::find(result.cover.boxes, Verdict::regular, &CoverBox::verdict);
+  result.cover.regions[box.region][box.free.front()] = box.box[box.free.front()].mid();
+  const std::string page = report_page(mechanism, {set_view(mechanism, result)});
+  EXPECT_TRUE(holds(page, of_parts));
+  EXPECT_TRUE(holds(page, "is smooth, but may leave the box"));
+}
+
 TEST(Page, RefusesAPlainSystem) {
   const Mechanism plain = symbolic::parse_model("[SYSTEM VARS]\nx : [0, 2]\n[SYSTEM EQS]\nx^2 = 2;\n", "plain.cuik");
   EXPECT_THROW(report_page(plain, {}), symbolic::ModelError);

@@ -29,11 +29,11 @@ std::vector<std::string> keys(const ordered_json& object) {
 
 TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   const ordered_json json = ordered_json::parse(to_json(sample_result()));
-  EXPECT_THAT(keys(json),
-              ElementsAre("model", "set", "corank", "system", "options", "complete", "assembled", "sample", "nearly_solved",
-                          "stopped", "boxes", "undecided_reasons", "observed_dimension", "seems_of_corank", "self_motions",
-                          "boundary_reasons", "range_ends", "no_limits", "ranges_found", "tolerances", "points", "meaning",
-                          "node_distance", "kernel", "free_coordinates", "types", "seconds", "version"));
+  EXPECT_THAT(keys(json), ElementsAre("model", "set", "corank", "system", "options", "complete", "assembled", "sample",
+                                      "nearly_solved", "stopped", "boxes", "parts_of_sheets", "undecided_reasons",
+                                      "observed_dimension", "seems_of_corank", "self_motions", "boundary_reasons",
+                                      "range_ends", "no_limits", "ranges_found", "tolerances", "points", "meaning",
+                                      "node_distance", "kernel", "free_coordinates", "types", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]),
               ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "passive_rates_eliminated",
@@ -61,6 +61,25 @@ TEST(JsonSummary, SaysWhatTheResultHolds) {
   EXPECT_EQ(json["options"]["tolerance"], 1e-6);
   EXPECT_EQ(json["options"]["constants"]["L2"], "4/5");
   EXPECT_EQ(json["version"], version());
+}
+
+TEST(Summary, CountsPartsOfSheets) {
+  Result result = sample_result();
+  EXPECT_EQ(ordered_json::parse(to_json(result))["parts_of_sheets"], 0);
+  EXPECT_THAT(to_table(result), Not(HasSubstr("part of a sheet")));
+  result.cover.regions[0][0] = 0.5;
+  EXPECT_EQ(ordered_json::parse(to_json(result))["parts_of_sheets"], 1);
+  EXPECT_THAT(to_table(result), HasSubstr("1 of these holds a part of a sheet"));
+}
+
+TEST(JsonSummary, GivesItsSampleAsFarAsTheProofDoes) {
+  Result result = sample_result();
+  result.cover.boxes = {sample_box({{0.0, 4.0}, {0.25, 0.75}, {-1.0, 1.0}, 0.5}, Verdict::regular, {0})};
+  result.cover.boxes[0].region = 0;
+  result.cover.regions[0] = {{1.0, 2.0}, {0.5, 1.0}, {0.5, 0.875}, 0.5};
+  const ordered_json narrow = ordered_json::parse(to_json(result))["sample"];
+  EXPECT_EQ(narrow["x"], (ordered_json{{"lo", 1.5}, {"hi", 1.5}}));
+  EXPECT_LT(narrow["t"]["hi"].get<double>() - narrow["t"]["lo"].get<double>(), 1);
 }
 
 TEST(JsonSummary, GivesBoundsBackBitForBitAndAnglesInRadians) {
@@ -166,6 +185,21 @@ Result result_at_the_ends() {
   result.domain = {{0}, {{"x", true}, {"t", false}, {"z", true}}, {{"upper end of x", 3}, {"m.cuik:9", 1}}, {}};
   result.variables[0].domain = {-0.11, 1.81};
   return result;
+}
+
+// Where there is nothing to cut, nothing was, and sigma is what it had been.
+TEST(Summary, OfPartsHasTheSigmaOfThoseThatHavePieces) {
+  Result whole = sample_result();
+  whole.cover.dimension = 2;
+  whole.parts = {whole, whole};
+  whole.parts[1].cover.boxes.clear();
+  whole.parts[1].cover.sigma = {HUGE_VAL, HUGE_VAL};
+  merge_parts(whole);
+  EXPECT_EQ(whole.cover.sigma, (Sigma{0.1, 0.25}));
+  EXPECT_EQ(whole.options.sigma, whole.cover.sigma);
+  whole.parts.erase(whole.parts.begin());
+  merge_parts(whole);
+  EXPECT_EQ(whole.cover.sigma, whole.parts[0].cover.sigma) << "of an empty set that of its parts";
 }
 
 TEST(Table, SaysWhatRangesDo) {

@@ -160,7 +160,7 @@ TEST(Assembly, KeepsRanges) {
   // The rocker of this crank-rocker reaches every theta; but theta alone is held where nothing closes for the other one.
   const result::Result inside = answer({four_bar(1, 3, 3, 3, "[0.5, 0.6]"), SingularitySet::cspace_singular});
   expect_confirmed(inside, true);
-  const Interval theta = result::sample(inside)->box->box[0];  // its cosine
+  const Interval theta = result::sample(inside)->box.box[0];  // its cosine
   EXPECT_GE(theta.lo(), std::cos(0.6) - 1e-9);
   EXPECT_LE(theta.hi(), std::cos(0.5) + 1e-9);
   // 3, 1, 1 and 4: the coupler and the rocker span 2 at most, and the crank's end is farther than that from the far pivot.

@@ -20,6 +20,12 @@ TEST(Notices, SayThatARangeLooksLikeDegrees) {
   EXPECT_THAT(notices_of_arm("[-132, 132]"), ElementsAre(HasSubstr("the range of q1 is more than six turns")));
   EXPECT_THAT(notices_of_arm("[-132deg, 132deg]"), IsEmpty());
   EXPECT_THAT(notices_of_arm("[-2*pi, 2*pi]"), IsEmpty()) << "on many data sheets";
+  const auto of_equations = [](const std::string& range) {
+    return parse_model({"[SYSTEM VARS]\nx : [-180, 180]\nphi ~ " + range + "\n[SYSTEM EQS]\nx = cos(phi);\n", "x.cuik"})
+        .notices;
+  };
+  EXPECT_THAT(of_equations("[-180, 180]"), ElementsAre(HasSubstr("the range of phi is more than six turns")));
+  EXPECT_THAT(of_equations("[-180deg, 180deg]"), IsEmpty());
 }
 
 }  // namespace

@@ -351,7 +351,7 @@ TEST(SingularitySystem, ReportsMissingInputsOrOutputs) {
   const Mechanism plain = model(kVars, kCircle);
   auto [line, message] = error_of([&] { singularity_system(plain, SingularitySet::forward); });
   EXPECT_THAT(message, HasSubstr("m.cuik: the model names no inputs"));
-  EXPECT_THAT(message, HasSubstr("expected a line [INPUTS]"));
+  EXPECT_THAT(message, HasSubstr("expected a line [INPUTS], or `actuated` behind a joint"));
   std::tie(line, message) = error_of([&] { singularity_system(plain, SingularitySet::inverse); });
   EXPECT_THAT(message, HasSubstr("the model names no outputs"));
   EXPECT_NO_THROW(singularity_system(plain, SingularitySet::cspace));
