@@ -45,7 +45,7 @@ void say_larger_sets(const result::Result& result, SetWords& words) {
     const std::size_t colon = sentence.find(':');
     words.proven.push_back(fmt::format("In {} there is a set of larger dimension than expected, {}.",
                                        boxes_text(result::boxes_on(cover, k)),
-                                       symbolic::html_text(sentence.substr(0, colon) + with_minus(sentence.substr(colon)))));
+                                       sentence.substr(0, colon) + with_minus(sentence.substr(colon))));
   }
   const std::size_t along = how_many(
       cover.boxes, [](const auto& b) { return b.verdict == Verdict::undecided && b.reason == Reason::degenerate_set; });

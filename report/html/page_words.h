@@ -1,4 +1,5 @@
-// A result in words, for a report: what was found, what of it is proven, and what is not. HTML fragments.
+// A result in words, for a report: what was found, what of it is proven, and what is not. Plain text, which the page
+// escapes, but where a name says HTML.
 #pragma once
 
 #include <string>
@@ -31,8 +32,7 @@ std::string names_html(const std::vector<std::string>& names);
 /// The inputs or the outputs, by their coordinates; by rates, with that word, where the mechanism's own of this role have no
 /// coordinates one by one.
 std::string chosen_html(const symbolic::Mechanism& mechanism, symbolic::Role role);
-/// "<i>l</i> = 9/10" with the value in MathML.
-/// With its tolerance.
+/// "<i>l</i> = 9/10" with the value in MathML, and its tolerance.
 std::string constant_html(const symbolic::Constant& constant);
 /// "l = 9/10, d = 1.18", likewise, without the constant `except`; "none" where there is no other.
 std::string constants_html(const symbolic::Mechanism& mechanism, const std::string& except = "");
