@@ -6,6 +6,7 @@
 #include <set>
 
 #include "corank/app/box_files.h"
+#include "corank/app/progress.h"
 #include "corank/app/subcommands.h"
 #include "corank/report/pictures/picture.h"
 #include "corank/report/pictures/portrait.h"
@@ -80,10 +81,13 @@ ExitStatus plot(const CLI::App& sub, const PlotCommand& command) {
   if (!report::is_portrait_format(command.output))
     refuse_without_effect(sub, {"--title", "--legend", "--width"}, "-o with a name that ends in .svg, .pdf or .png");
   if (!command.output.ends_with(".png")) refuse_without_effect(sub, {"--dpi"}, "-o with a name that ends in .png");
+  ProgressLine line;
   WholeRun run(command.time_limit);
+  line.follow(run.control());
   std::list<result::Result> results;
   std::vector<report::PictureSource> sources;
   for (const std::string& path : command.inputs) sources.push_back(read_source(command, path, results, run));
+  line.clear();
   run.enter("drawing the picture");
   report::Picture picture;
   try {

@@ -57,7 +57,7 @@ inline constexpr int kPointShifts = 12;          ///< of the free variables, tow
 inline constexpr double kPointRoom = 1.0 / 512;  ///< of a side: between the solution and the side's ends
 /// Wider boxes that may leave the domain are divided, where sheets are not cut: of a `boundary` box no solution in the
 /// domain is known.
-inline constexpr double kAcrossShare = 1.0 / 8;
+inline constexpr double kAcrossShare = 1.0 / 2;
 inline constexpr double kPointMiss = 1;  ///< of half a side: from farther outside no further try leads into it
 
 /// A parameter never becomes narrower, so beside this its domain counts as narrow.

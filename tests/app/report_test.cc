@@ -129,7 +129,7 @@ TEST(Report, KeepsSheetsWholeInItsFilesAndCutsThemForThePage) {
 TEST(Report, SaysThatItShowsBoxesUncutWhereCutOnesAreTooMany) {
   const TemporaryFolder folder;
   const Outcome outcome =
-      run_corank({"report", model("planar/3prr"), "--sets", "cspace", "--max-found", "1000", "-o", folder.file("r")});
+      run_corank({"report", model("planar/3prr"), "--sets", "cspace", "--max-found", "2000", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_THAT(outcome.err, HasSubstr("cspace: its boxes are shown uncut: cut ones are too many for the page"));
   const std::string page = read_text(folder.file("r/index.html"));
