@@ -176,7 +176,7 @@ class Result:
     def free(self) -> np.ndarray:
         """Is the variable free in the box? bool of shape (n, variables), not copied. For every value of the free variables
         in a `regular` box there is exactly one solution in it, or at most one if it is among `parts_of_sheets`. If the set
-        has `parts`, these know the free variables of such boxes."""
+        has `parts`, there is one at least, since coordinates of a part may be left out; boxes of the parts say more."""
         return self._arrays["free"]
 
     @property
