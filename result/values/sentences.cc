@@ -133,29 +133,35 @@ std::vector<std::string> held_coordinates(const Result& result) {
   return names;
 }
 
+// Nothing: one that was built in C++ has no text.
+std::optional<symbolic::Mechanism> readable_model(const Result& result) {
+  try {
+    return model_of(result);
+  } catch (const symbolic::ModelError&) {
+    return std::nullopt;
+  }
+}
+
 // Such a coordinate that is not among the locked ones: the theorem says nothing then. Its name, or "" where there is none.
 std::string held_and_not_locked(const Result& result, symbolic::Role locked) {
   const std::vector<std::string> held = held_coordinates(result);
   if (held.empty()) return "";
-  try {
-    const symbolic::Mechanism model = model_of(result);
-    for (const std::string& name : held)
-      if (role_of(model, name) != locked) return name;
-    return "";
-  } catch (const symbolic::ModelError&) {  // one that was built in C++ has no text
-    return held.front();
-  }
+  const auto model = readable_model(result);
+  if (!model) return held.front();
+  for (const std::string& name : held)
+    if (role_of(*model, name) != locked) return name;
+  return "";
 }
 
 // Of a robot's equations: coordinates with ranges that do not end its workspace, where nothing else is said to limit it.
 std::vector<std::string> ranges_without_limits(const Result& result) {
   std::vector<std::string> names;
-  const symbolic::Mechanism model = model_of(result);
-  if (!model.limits().empty()) return names;
-  for (const symbolic::Coordinate& c : model.coordinates()) {
+  const auto model = readable_model(result);
+  if (!model || !model->limits().empty()) return names;
+  for (const symbolic::Coordinate& c : model->coordinates()) {
     const auto angle = std::ranges::find(result.angles, c.name, &Angle::name);
     const bool is_round = angle != result.angles.end() && angle->range.width() > 6.28;
-    if (c.has_range && !c.auxiliary && !is_round && !is_fixed(c) && role_of(model, c.name) != symbolic::Role::output)
+    if (c.has_range && !c.auxiliary && !is_round && !is_fixed(c) && role_of(*model, c.name) != symbolic::Role::output)
       names.push_back(c.name);
   }
   return names;

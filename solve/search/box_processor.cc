@@ -27,8 +27,8 @@ certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
   dependent_ = preconditioners_.chart_of_last(problem_.compiled.scales(), kChartGain);
   const auto& p = pivots == dependent_ ? preconditioners_.last() : preconditioners_.at_midpoint(x, &dependent_);
   if (p.rank() < problem_.compiled.equations()) return {};
-  return certify::newton_prove(problem_.compiled, p, x, workspace_,
-                               problem_.parts_of_sheets ? kProofStepsBeforeParts : kProofSteps);
+  if (problem_.parts_of_sheets) return certify::newton_prove(problem_.compiled, p, x, workspace_, kProofStepsBeforeParts);
+  return certify::newton_prove(problem_.compiled, p, x, workspace_);
 }
 
 certify::Sheet BoxProcessor::prove_in_part(std::span<const Interval> x) {

@@ -47,18 +47,18 @@ inline constexpr double kRankTolerance = 1e-9, kRedundantRankTolerance = 1e-7, k
 inline constexpr int kGaussNewtonSteps = 8;  ///< to where the rank of redundant equations shows
 inline constexpr double kChartGain = 1.05;   ///< of a proof's volume: an exchange of free variables costs an elimination
 inline constexpr int kMostExchanges = 16;
-/// Of ε-inflation in a proof; where what it leaves unproven may be a part of a sheet, which takes less work. Two are too few
-/// where a side is as narrow as rounding: a set along which nothing is proven has no end. *
-inline constexpr int kProofSteps = 8, kProofStepsBeforeParts = 4;
+/// Of ε-inflation, where what a proof leaves may be a part of a sheet, which takes less work. Two are too few where a side
+/// is as narrow as rounding: a set along which nothing is proven has no end. *
+inline constexpr int kProofStepsBeforeParts = 4;
+/// Wider boxes that may leave the domain are divided, where sheets are not cut: of a `boundary` box no solution in the
+/// domain is known.
+inline constexpr double kAcrossShare = 1.0 / 2;
 // A solution in a box that a sheet leaves (box_about_solution)
 inline constexpr int kMostFreeOfPoints = 8;
 inline constexpr int kPointTries = 4;            ///< of Newton's method
 inline constexpr int kPointShifts = 12;          ///< of the free variables, towards values whose solution is in the box
 inline constexpr double kPointRoom = 1.0 / 512;  ///< of a side: between the solution and the side's ends
-/// Wider boxes that may leave the domain are divided, where sheets are not cut: of a `boundary` box no solution in the
-/// domain is known.
-inline constexpr double kAcrossShare = 1.0 / 2;
-inline constexpr double kPointMiss = 1;  ///< of half a side: from farther outside no further try leads into it
+inline constexpr double kPointMiss = 1;          ///< of half a side: from farther outside no further try leads into it
 
 /// A parameter never becomes narrower, so beside this its domain counts as narrow.
 inline constexpr double kParameterSize = 1e150;

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "corank/certify/angle.h"
+#include "corank/result/values/sentences.h"
+#include "corank/symbolic/model/model_error.h"
 #include "corank/tests/result/sample_result.h"
 #include "corank/tests/system_builder.h"
 
@@ -200,6 +202,15 @@ TEST(Summary, OfPartsHasTheSigmaOfThoseThatHavePieces) {
   whole.parts.erase(whole.parts.begin());
   merge_parts(whole);
   EXPECT_EQ(whole.cover.sigma, whole.parts[0].cover.sigma) << "of an empty set that of its parts";
+}
+
+TEST(Summary, OfAnEmptyBoundaryNeedsNoModelText) {
+  Result empty = sample_result();
+  empty.set = "boundary";
+  empty.model_text.clear();  // as of a model that was built in C++
+  empty.cover.boxes.clear();
+  EXPECT_THROW(model_of(empty), symbolic::ModelError);
+  EXPECT_THAT(assembly_sentences(empty), testing::Each(Not(HasSubstr("[LIMITS]"))));
 }
 
 TEST(Table, SaysWhatRangesDo) {
