@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "corank/certify/numeric.h"
 #include "corank/certify/polynomial_algebra.h"
@@ -23,6 +24,14 @@ std::vector<Polynomial> values_of(const System& system) {
   for (const auto* part : {&f.jacobian, &f.hessian, &f.slack, &f.normal})
     list.insert(list.end(), part->begin(), part->end());
   return list;
+}
+
+// With the variables that its form names besides.
+System with_multipliers(System system) {
+  for (int i = 0; system.passage && i < system.passage->further_variables(); ++i)
+    system.variables.emplace_back("λ" + std::to_string(i + 1), VariableKind::auxiliary, ExactNumber(-1), ExactNumber(1));
+  system.passage.reset();
+  return system;
 }
 
 Eigen::MatrixXd symmetric_middle(const IntervalMatrix& form) {
@@ -66,12 +75,51 @@ bool takes_both_signs(const IntervalMatrix& form, const std::vector<Interval>& s
   return plus && minus;
 }
 
+// How λ is enclosed where m is about Φ_z: any choice is valid.
+struct MultiplierChoice {
+  int passed = 0;               // r, whose λ is the largest where rows have the same size: det N is a multiple of it
+  std::vector<int> columns{};   // D
+  std::vector<double> sizes{};  // of λ
+};
+
+// Nothing where the rows but one are dependent. Requires as many columns as rows, less one.
+std::optional<MultiplierChoice> choose_multiplier(Eigen::MatrixXd m) {
+  constexpr double kLeastShare = 0.01;
+  const auto n = static_cast<int>(m.rows());
+  if (!m.allFinite()) return std::nullopt;
+  if (n == 1) return MultiplierChoice{0, {}, {1}};
+  std::vector<int> rows(n);
+  std::vector<double> of_rows;
+  for (int i = 0; i < n; ++i) {
+    const double size = m.row(i).lpNorm<Eigen::Infinity>();
+    of_rows.push_back(size > 0 ? size : 1);
+    m.row(i) /= of_rows[i];
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(m);
+  MultiplierChoice result;
+  for (int i = 0; i < n; ++i) rows[lu.permutationP().indices()(i)] = i;
+  for (int i = 0; i + 1 < n; ++i) result.columns.push_back(lu.permutationQ().indices()(i));
+  const int last = rows.back();
+  rows.pop_back();
+  Eigen::VectorXd lambda = Eigen::VectorXd::Ones(n);
+  lambda(rows) = -inverse(m(rows, result.columns).transpose()) * m(last, result.columns).transpose();
+  if (!lambda.allFinite()) return std::nullopt;
+  const double largest = lambda.cwiseAbs().maxCoeff(&result.passed);
+  for (int i = 0; i < n; ++i) result.sizes.push_back(std::max(std::fabs(lambda(i)), kLeastShare * largest) / of_rows[i]);
+  return result;
+}
+
 }  // namespace
 
 PassageTest::PassageTest(const System& system)
     : form_(system.coefficient_tolerance > 0 ? std::nullopt : system.passage),
-      compiled_(system, values_of(system)),
-      arguments_(variables_of(values_of(system))) {}
+      compiled_(with_multipliers(system), values_of(system)),
+      arguments_(variables_of(values_of(system))) {
+  if (!form_ || form_->further_variables() == 0) return;
+  finds_multipliers_ = true;
+  std::erase_if(arguments_, [&](int j) { return j >= system.size(); });
+  for (int i = 0; i < form_->equations; ++i) form_->multipliers.push_back(system.size() + i);
+}
 
 Interval PassageTest::value(int index, const Box& box) const { return compiled_.evaluate(compiled_.value_row(index), box); }
 
@@ -85,6 +133,32 @@ int PassageTest::slack(int i) const {
   return form_->equations * form_->columns + static_cast<int>(form_->hessian.size()) + i;
 }
 int PassageTest::normal(int i) const { return slack(static_cast<int>(form_->slack.size())) + i; }
+
+IntervalMatrix PassageTest::jacobian(const std::vector<int>& rows, const Box& box) const {
+  IntervalMatrix m(static_cast<int>(rows.size()), form_->columns);
+  for (int i = 0; i < m.rows; ++i)
+    for (int j = 0; j < m.columns; ++j) m(i, j) = value(rows[i] * m.columns + j, box);
+  return m;
+}
+
+// Of every solution in the box a λ, where the system has none. False: N is not shown to be regular.
+bool PassageTest::enclose_multipliers(Box& box) const {
+  const int rows = form_->equations;
+  if (!finds_multipliers_) return true;
+  if (form_->columns < rows - 1) return false;
+  std::vector<int> others(rows);
+  std::iota(others.begin(), others.end(), 0);
+  const IntervalMatrix m = jacobian(others, box);
+  const auto choice = choose_multiplier(middle(m));
+  if (!choice) return false;
+  others.erase(others.begin() + choice->passed);
+  IntervalMatrix transposed(rows - 1, rows);
+  for (int i = 0; i < rows - 1; ++i)
+    for (int j = 0; j < rows; ++j) transposed(i, j) = m(j, choice->columns[i]);
+  const auto lambda = kernel_basis(transposed, others, choice->sizes);
+  for (int i = 0; lambda && i < rows; ++i) box[form_->multipliers[i]] = (*lambda)(i, 0);
+  return lambda.has_value();
+}
 
 // Hypothesis (2): which row is passed over, and which columns N has. Any choice is valid where the tests that follow
 // succeed.
@@ -102,10 +176,7 @@ bool PassageTest::choose(const Box& box, Basis& basis) const {
     if (i != passed) basis.rows.push_back(i);
   const int r = static_cast<int>(basis.rows.size());
   if (r > 0) {
-    IntervalMatrix m(r, columns);
-    for (int i = 0; i < r; ++i)
-      for (int j = 0; j < columns; ++j) m(i, j) = value(basis.rows[i] * columns + j, box);
-    const Eigen::FullPivLU<Eigen::MatrixXd> lu(middle(m));
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(middle(jacobian(basis.rows, box)));
     for (int i = 0; i < r; ++i) basis.dependent.push_back(lu.permutationQ().indices()(i));
   }
   return true;
@@ -114,10 +185,8 @@ bool PassageTest::choose(const Box& box, Basis& basis) const {
 // S over the box; nothing where N is not shown to be regular.
 std::optional<IntervalMatrix> PassageTest::reduce(const Box& box, const Basis& basis) const {
   const int columns = form_->columns;
-  IntervalMatrix rows(static_cast<int>(basis.rows.size()), columns), h(columns, columns);
-  for (int i = 0; i < rows.rows; ++i)
-    for (int j = 0; j < columns; ++j) rows(i, j) = value(basis.rows[i] * columns + j, box);
-  const auto w = kernel_basis(rows, basis.dependent);
+  IntervalMatrix h(columns, columns);
+  const auto w = kernel_basis(jacobian(basis.rows, box), basis.dependent);
   if (!w) return std::nullopt;
   for (int i = 0; i < columns; ++i)
     for (int j = i; j < columns; ++j) h(i, j) = h(j, i) = value(hessian(i, j), box);
@@ -130,7 +199,9 @@ Interval PassageTest::along_normal(const std::vector<double>& side, const Box& b
   return sum;
 }
 
-bool PassageTest::holds(const Claim& claim, const Box& box) const {
+bool PassageTest::holds(const Claim& claim, const Box& sides) const {
+  Box box = sides;
+  if (!enclose_multipliers(box)) return false;
   const Interval along = along_normal(claim.side, box);
   const bool barrier = claim.passage == Passage::barrier;
   // Hypothesis (1), and of a barrier that −sign·n is on the side named.
@@ -168,8 +239,9 @@ bool PassageTest::holds(const Claim& claim, Box box, int halvings) const {
 // What the form looks like at the midpoint, and a side for all of the box.
 PassageTest::Claim PassageTest::guess(const Box& box) const {
   const std::vector<double> middle_point = midpoint(box);
-  const Box middle_box(middle_point.begin(), middle_point.end());
+  Box middle_box(middle_point.begin(), middle_point.end());
   Claim claim{Passage::unproven, 0, {}};
+  if (!enclose_multipliers(middle_box)) return claim;
   Basis basis;
   if (!choose(middle_box, basis)) return claim;
   const std::optional<IntervalMatrix> form = reduce(middle_box, basis);
@@ -186,9 +258,9 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
   }
   for (int i = 0; i < static_cast<int>(form_->normal.size()); ++i) claim.side.push_back(value(normal(i), middle_box).mid());
   // Outputs of unlike units: the one whose numbers are largest may steer the normal, and have no sign over the box.
-  if (along_normal(claim.side, box).contains_zero())
+  if (Box whole = box; enclose_multipliers(whole) && along_normal(claim.side, whole).contains_zero())
     for (std::size_t i = 0; i < claim.side.size(); ++i)
-      if (value(normal(static_cast<int>(i)), box).contains_zero()) claim.side[i] = 0;
+      if (value(normal(static_cast<int>(i)), whole).contains_zero()) claim.side[i] = 0;
   double size = 0;
   for (const double x : claim.side) size = std::hypot(size, x);
   if (!(size > 0) || !std::isfinite(size) || plus + minus == 0) return claim;
@@ -202,8 +274,10 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
 
 PassageTest::Finding PassageTest::of(const Box& box, int halvings) const {
   CORANK_CHECK(applies() && UpwardRounding::active());
-  const Claim claim = guess(box);
-  if (claim.passage == Passage::unproven || !holds(claim, box, halvings)) return {};
+  Box sides = box;
+  sides.resize(compiled_.variables());
+  const Claim claim = guess(sides);
+  if (claim.passage == Passage::unproven || !holds(claim, sides, halvings)) return {};
   return {claim.passage, claim.side};
 }
 

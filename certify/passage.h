@@ -10,8 +10,10 @@
 //     outputs lie on the side of −n (n) of the boundary's image there, or on it: a barrier;
 //   some sign + and some sign − among the values of S and the s_i: there are motions through q on which the output goes
 //     straight through u from one side to the other: traversable.
-// Proof: doc/theory.md, "Barriers". Over a box each hypothesis is shown for all of its points: N by preconditioning, (S,
-// definite) by Gershgorin's discs after a congruence, signs by intervals.
+// Proof: doc/theory.md, "Barriers". Where the system has no λ (PassageForm::multipliers), λ is the vector with λ_r = 1 and
+// λᵀN = −Φ_{r,D} on the other rows: a left kernel vector of Φ_z, which it has at every solution, is a multiple of it. Over a
+// box each hypothesis is shown for all of its points: N by preconditioning, (S, definite) by Gershgorin's discs after a
+// congruence, signs by intervals.
 #pragma once
 
 #include <vector>
@@ -46,6 +48,8 @@ class PassageTest {
     std::vector<int> rows, dependent;
   };
   Interval value(int index, const Box& box) const;
+  IntervalMatrix jacobian(const std::vector<int>& rows, const Box& box) const;
+  bool enclose_multipliers(Box& box) const;
   bool choose(const Box& box, Basis& basis) const;
   std::optional<IntervalMatrix> reduce(const Box& box, const Basis& basis) const;
   bool holds(const Claim& claim, const Box& box) const;
@@ -58,7 +62,8 @@ class PassageTest {
   int normal(int i) const;
 
   std::optional<PassageForm> form_;
-  CompiledSystem compiled_;  // value rows: Jacobian, Hessian, slacks, normal
+  bool finds_multipliers_ = false;  // they stand behind the system's variables
+  CompiledSystem compiled_;         // value rows: Jacobian, Hessian, slacks, normal
   std::vector<int> arguments_;
 };
 

@@ -4,27 +4,58 @@
 #include <cmath>
 
 #include "corank/check/inertia.h"
+#include "corank/check/krawczyk.h"
+#include "corank/core/box.h"
+#include "corank/core/dense.h"
 
 namespace corank::check {
 namespace {
 constexpr int kMostPassageParts = 500;
 }  // namespace
 
-PassageCheck::PassageCheck(const System& system, const StopFlag& stop) : stop_(stop), lengths_(domain_lengths(system)) {
+PassageCheck::PassageCheck(const System& system, const StopFlag& stop)
+    : stop_(stop), variables_(system.size()), lengths_(domain_lengths(system)) {
   if (!system.passage || system.coefficient_tolerance > 0) return;
   const PassageForm& form = *system.passage;
   has_form_ = true;
   columns_ = form.columns;
   multipliers_ = form.multipliers;
-  jacobian_ = entries_of({form.equations, form.columns, form.jacobian}, system.size());
-  hessian_ = rows_of(form.hessian, system.size());
-  slack_ = rows_of(form.slack, system.size());
-  normal_ = rows_of(form.normal, system.size());
+  for (int i = 0; i < form.further_variables(); ++i) multipliers_.push_back(variables_ + i);
+  const int variables = variables_ + form.further_variables();
+  jacobian_ = entries_of({form.equations, form.columns, form.jacobian}, variables);
+  hessian_ = rows_of(form.hessian, variables);
+  slack_ = rows_of(form.slack, variables);
+  normal_ = rows_of(form.normal, variables);
   RowMatrix all = jacobian_;
   all.insert(all.end(), {hessian_, slack_, normal_});
   arguments_ = variables_of(all);
+  std::erase_if(arguments_, [this](int j) { return j >= variables_; });
   equations_ = rows_of(system.equations, system.size());
   inequalities_ = rows_of(system.inequalities, system.size());
+}
+
+bool PassageCheck::enclose_multipliers(Sides& x) const {
+  if (multipliers_.empty() || multipliers_.front() < variables_) return true;
+  const std::vector<Sides> rows = values(jacobian_, x);
+  const std::size_t n = rows.size();
+  if (columns_ + 1 < n) return false;
+  Eigen::MatrixXd middle(n, columns_);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < columns_; ++j) middle(i, j) = rows[i][j].mid();
+    if (const double size = middle.row(i).lpNorm<Eigen::Infinity>(); size > 0) middle.row(i) /= size;  // in any unit
+  }
+  if (!middle.allFinite()) return false;
+  Eigen::Index passed = 0;  // det N is a multiple of its λ
+  if (n > 1) decompose(middle).u.col(static_cast<Eigen::Index>(n) - 1).cwiseAbs().maxCoeff(&passed);
+  middle.row(passed).setZero();
+  const Pivots chosen = pivots(std::move(middle), n - 1);  // N's rows and columns
+  if (chosen.rows.size() + 1 < n) return false;
+  std::vector<Sides> transposed(n - 1, Sides(n));
+  for (std::size_t k = 0; k + 1 < n; ++k)
+    for (std::size_t i = 0; i < n; ++i) transposed[k][i] = rows[i][chosen.columns[k]];
+  const auto lambda = kernel_basis(transposed, chosen.rows, all_but(chosen.rows, static_cast<int>(n)));
+  for (std::size_t i = 0; lambda && i < n; ++i) x[multipliers_[i]] = (*lambda)[i][0];
+  return lambda.has_value();
 }
 
 std::optional<std::vector<Sides>> PassageCheck::form(const Sides& x) const {
@@ -39,7 +70,10 @@ std::optional<std::vector<Sides>> PassageCheck::form(const Sides& x) const {
   return form_on_kernel(h, rows);
 }
 
-bool PassageCheck::holds(const CoverBox& box, const Sides& x) const {
+bool PassageCheck::holds(const CoverBox& box, const Sides& part) const {
+  Sides x = part;
+  x.resize(part.size() + (multipliers_.empty() || multipliers_.front() < variables_ ? 0 : multipliers_.size()));
+  if (!enclose_multipliers(x)) return false;
   Enclosure along;  // n·side
   for (std::size_t i = 0; i < normal_.size(); ++i) along.add_product(box.side[i], normal_[i].value(x));
   if (along.has_zero()) return false;

@@ -2,7 +2,8 @@
 //
 // Theorem: certify/passage.h; doc/theory.md, "Barriers". Here N is shown to be regular, and the form to be definite, by the
 // pivots of eliminations (check/inertia.h), and the form to take both signs by its values at the unit vectors and at about
-// its eigenvectors.
+// its eigenvectors. A λ that the system does not have is found from N, with 1 as the multiplier of the row that N passes
+// over.
 #pragma once
 
 #include <optional>
@@ -22,6 +23,8 @@ class PassageCheck {
   std::string fault(const CoverBox& box) const;
 
  private:
+  // Of every solution in x, which has as many further sides, a λ where the system has none. False: not shown.
+  bool enclose_multipliers(Sides& x) const;
   // The reduced form S over x; nothing where the hypotheses about λ and N are not shown.
   std::optional<std::vector<Sides>> form(const Sides& x) const;
   bool holds(const CoverBox& box, const Sides& x) const;
@@ -33,6 +36,7 @@ class PassageCheck {
   RowMatrix jacobian_;
   std::vector<Row> hessian_, slack_, normal_, equations_, inequalities_;
   std::vector<int> multipliers_, arguments_;
+  int variables_;                // of the system; multipliers from there on are no variables of it
   std::vector<double> lengths_;  // of the variables' domains
 };
 

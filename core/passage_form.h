@@ -30,7 +30,12 @@ struct PassageForm {
   std::vector<Polynomial> hessian;   ///< λᵀ Φ_{z_j z_k} for k ≥ j, row by row, times those of columns j and k
   std::vector<Polynomial> slack;     ///< s_i λᵀ Φ_{q_i}: s_i = −1 at an upper limit, 1 at a lower one
   std::vector<Polynomial> normal;    ///< n
-  std::vector<int> multipliers;      ///< of each equation the variable that λ's component is a positive multiple of
+  /// Of each equation the variable that λ's component is a positive multiple of. None: the system has no λ. Its polynomials
+  /// then count λ's components behind the system's variables, and λ spans the left kernel of Φ_z.
+  std::vector<int> multipliers;
+
+  /// How many variables its polynomials name that the system does not have.
+  int further_variables() const { return multipliers.empty() ? equations : 0; }
 };
 
 }  // namespace corank

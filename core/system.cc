@@ -104,10 +104,11 @@ void System::validate() const {
   if (passage) {
     const std::size_t rows = passage->equations, columns = passage->columns;
     if (passage->equations < 0 || passage->columns < 0 || passage->jacobian.size() != rows * columns ||
-        passage->hessian.size() != columns * (columns + 1) / 2 || passage->multipliers.size() != rows)
+        passage->hessian.size() != columns * (columns + 1) / 2 ||
+        (!passage->multipliers.empty() && passage->multipliers.size() != rows))
       throw std::invalid_argument("the form of a passage has other sizes than it says");
     for (const auto* list : {&passage->jacobian, &passage->hessian, &passage->slack, &passage->normal})
-      for (const Polynomial& polynomial : *list) validate_polynomial(polynomial, size());
+      for (const Polynomial& polynomial : *list) validate_polynomial(polynomial, size() + passage->further_variables());
     for (const int multiplier : passage->multipliers)
       if (multiplier < 0 || multiplier >= size())
         throw std::invalid_argument("the form of a passage names a variable that does not exist");

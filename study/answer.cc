@@ -17,11 +17,15 @@
 namespace corank::study {
 namespace {
 
-bool is_component(const Question& q) { return q.part && std::holds_alternative<symbolic::Component>(*q.part); }
+// Is there a condition, or nothing, in place of the set's kernel vector?
+bool has_no_kernel(const symbolic::SetPart& part) {
+  const auto* limits = std::get_if<symbolic::BoundaryPart>(&part);
+  return component_of(part) || (limits && !limits->has_multipliers);
+}
 
 // The side that was taken where none was asked for.
 std::string kernel_of(const Question& q) {
-  if (!symbolic::definition(q.set).has_kernel() || is_component(q)) return "";
+  if (!symbolic::definition(q.set).has_kernel() || (q.part && has_no_kernel(*q.part))) return "";
   if (q.part && std::holds_alternative<symbolic::RequirementPart>(*q.part)) return to_string(symbolic::KernelSide::right);
   return to_string(symbolic::kernel_question(q.model, *q.set, q.kernel).side);
 }
@@ -125,7 +129,7 @@ result::Result join(const std::vector<Question>& parts, std::vector<result::Resu
   for (std::size_t i = 0; i < parts.size(); ++i) {
     whole.parts.push_back(std::move(results[i]));
     whole.parts.back().part = text(*parts[i].part);
-    if (const auto* component = std::get_if<symbolic::Component>(&*parts[i].part))
+    if (const symbolic::Component* component = component_of(*parts[i].part))
       whole.parts.back().condition = component->relation();
   }
   result::merge_parts(whole);
@@ -184,7 +188,7 @@ result::Result describe(const Question& question, const System& system, const Op
     result.outputs = question.model.outputs();
   result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   describe_corank(system, result);
-  const auto* component = question.part ? std::get_if<symbolic::Component>(&*question.part) : nullptr;
+  const symbolic::Component* component = question.part ? component_of(*question.part) : nullptr;
   if (question.assembly && !(component && component->factor)) describe_states(*question.assembly, result);
   return result;
 }

@@ -14,8 +14,8 @@
 namespace corank::test {
 
 struct PlantedPassage {
-  System system;                                   ///< variables: t, then λ; everything is as planted at t = 0
-  std::vector<double> at;                          ///< the solution
+  System system;           ///< variables: t, then λ unless the system is without; everything is as planted at t = 0
+  std::vector<double> at;  ///< the solution
   bool plus = false, minus = false, zero = false;  ///< signs among the numbers of the form
   std::vector<double> normal;
 
@@ -42,8 +42,9 @@ class PassagePlanter {
   explicit PassagePlanter(unsigned seed) : random_(seed) {}
 
   /// With these numbers of equations, dimensions of the right kernel, coordinates at limits; `zeros`: how many numbers of
-  /// the form are 0.
-  PlantedPassage plant(std::size_t equations, std::size_t kernel, std::size_t limits, std::size_t zeros = 0) {
+  /// the form are 0. Without multipliers the form's entries are sums of λ's components, which the system does not have.
+  PlantedPassage plant(std::size_t equations, std::size_t kernel, std::size_t limits, std::size_t zeros = 0,
+                       bool has_multipliers = true) {
     const std::size_t e = equations, m = e - 1 + kernel;
     PlantedPassage p;
     PassageForm& form = p.system.passage.emplace();
@@ -55,10 +56,12 @@ class PassagePlanter {
     std::vector<int> lambda;
     for (std::size_t i = 0; i < e; ++i) {
       lambda.push_back(i + 1 == e ? 1 : number(-2, 2));
+      if (!has_multipliers) continue;
       p.system.variables.emplace_back("l" + std::to_string(i), VariableKind::kernel, -10, 10);
       p.at.push_back(lambda.back());
       form.multipliers.push_back(static_cast<int>(i) + 1);
     }
+    const auto entry = [&](int x) { return has_multipliers ? nearby(x) : sum_of(lambda, x); };
     // Φ_z = M·T, its first e − 1 rows A·T, its last the one that λ asks for.
     const Matrix t = unimodular(m), a = unimodular(e - 1);
     Matrix jacobian(e, std::vector<int>(m, 0));
@@ -94,12 +97,12 @@ class PassagePlanter {
         int h = 0;
         for (std::size_t x = 0; x < m; ++x)
           for (std::size_t y = 0; y < m; ++y) h += t[x][i] * k[x][y] * t[y][j];
-        form.hessian.push_back(nearby(h));
+        form.hessian.push_back(entry(h));
       }
-    for (std::size_t i = 0; i < limits; ++i) form.slack.push_back(nearby(diagonal[kernel + i]));
+    for (std::size_t i = 0; i < limits; ++i) form.slack.push_back(entry(diagonal[kernel + i]));
     for (int i = 0; i < 2; ++i) {
       p.normal.push_back(number(1, 3) * (number(0, 1) ? 1 : -1));
-      form.normal.push_back(nearby(static_cast<int>(p.normal.back())));
+      form.normal.push_back(entry(static_cast<int>(p.normal.back())));
     }
     return p;
   }
@@ -114,6 +117,18 @@ class PassagePlanter {
     Polynomial f;
     if (x != 0) f.monomials.emplace_back(x, std::vector<Factor>{});
     if (const int a = number(-1, 1); a != 0) f.monomials.emplace_back(a, std::vector<Factor>{{0, 1}});
+    return f;
+  }
+
+  // Σ aᵢ λᵢ + a·t, where the sum is x.
+  Polynomial sum_of(const std::vector<int>& lambda, int x) {
+    Polynomial f = nearby(0);
+    for (std::size_t i = 0; i < lambda.size(); ++i) {
+      const bool last = i + 1 == lambda.size();  // whose λ is 1
+      const int a = last ? x : number(-1, 1);
+      x -= a * lambda[i];
+      if (a != 0) f.monomials.emplace_back(a, std::vector<Factor>{{static_cast<int>(i) + 1, 1}});
+    }
     return f;
   }
 

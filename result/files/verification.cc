@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <sstream>
 
 #include "corank/result/files/hdf5_file.h"
@@ -54,12 +55,29 @@ std::vector<std::string> misplaced_decimals(const Result& result) {
   return list;
 }
 
+bool is_about(const symbolic::SetPart& part, const Result& result) {
+  const auto* limits = std::get_if<symbolic::BoundaryPart>(&part);
+  return is_named(part, result.part) && (!limits || limits->has_multipliers != result.options.kernel.empty());
+}
+
+// The parts that these results are about, all or some of a set's. Of a boundary either those of today, or as older programs
+// had them, each with its λ.
+std::vector<symbolic::SetPart> parts_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
+                                        std::span<const Result> results) {
+  std::vector<symbolic::SetPart> parts = symbolic::set_parts(mechanism, set);
+  const bool has_all = std::ranges::all_of(results, [&](const Result& result) {
+    return std::ranges::any_of(parts, [&](const symbolic::SetPart& part) { return is_about(part, result); });
+  });
+  if (has_all || !symbolic::definition(set).of_parts) return parts;
+  const std::vector<symbolic::BoundaryPart> former = symbolic::boundary_parts(mechanism);
+  return {former.begin(), former.end()};
+}
+
 // Of a part, or of what all parts have in common.
 System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
   if (result.part.empty()) return symbolic::configurations(mechanism);
-  for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, set))
-    if (is_named(part, result.part))
-      return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
+  for (const symbolic::SetPart& part : parts_of(mechanism, set, std::span(&result, 1)))
+    if (is_about(part, result)) return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
   throw ResultFileError("the result's model has no part '" + result.part + "'");
 }
 
@@ -131,9 +149,8 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
   if (!is_boundary && result.parts.empty()) return {};
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
-  const std::vector<symbolic::SetPart> expected = symbolic::set_parts(model, *set);
-  const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(),
-                              [](const symbolic::SetPart& a, const Result& b) { return is_named(a, b.part); });
+  const std::vector<symbolic::SetPart> expected = parts_of(model, *set, result.parts);
+  const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(), is_about);
   if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
   std::vector<std::string> list;
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -151,22 +168,49 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
   return list;
 }
 
-// Of a set whose matrix decomposes.
+// A set with a kernel vector, and the parts that are together the same configurations.
+struct Union {
+  symbolic::SetEquations whole;
+  std::string limits{};  // of a boundary, which of them are reached
+  std::vector<check::PartOfSet> parts{};
+};
+
+// Of a boundary one for each choice of limits whose parts have no λ.
+std::vector<Union> unions_of(const symbolic::Mechanism& model, symbolic::SingularitySet set, const Result& result,
+                             const std::vector<System>& systems) {
+  std::vector<Union> unions;
+  if (symbolic::definition(set).of_requirements) return unions;
+  const std::vector<symbolic::SetPart> parts = parts_of(model, set, result.parts);
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    if (const auto* limits = std::get_if<symbolic::BoundaryPart>(&parts[i])) {
+      if (limits->of_output || limits->has_multipliers) continue;
+      const symbolic::BoundaryPart whole{limits->active};
+      if (unions.empty() || unions.back().limits != whole.text())
+        unions.push_back({symbolic::SetEquations(model, set, whole), whole.text()});
+    } else if (unions.empty()) {
+      unions.push_back({symbolic::SetEquations(model, set)});
+    }
+    unions.back().parts.push_back({result.parts[i].part, systems[i], result.parts[i].free_coordinates});
+  }
+  return unions;
+}
+
 void sample_parts(const symbolic::Mechanism& model, const Result& result, const std::vector<System>& systems,
                   const check::Options& options, Verification& verification) {
-  const auto set = *symbolic::singularity_set_from_string(result.set);
-  if (symbolic::definition(set).of_parts || symbolic::definition(set).of_requirements) return;
-  const symbolic::SetEquations whole(model, set);
-  std::vector<check::PartOfSet> parts;
-  for (std::size_t i = 0; i < systems.size(); ++i)
-    parts.push_back({result.parts[i].part, systems[i], result.parts[i].free_coordinates});
-  const System system = whole.compiled(whole.scales());
   Report report;
-  report.interrupted = !check::finishes([&] {
-    verification.samples = check::sample_parts(system, parts, options.seed, check::StopFlag(options.ended));
-    for (const std::string& failure : verification.samples->failures)
-      verification.report.failures.push_back({Failure::Place::cover, 0, failure});
-  });
+  for (const Union& one : unions_of(model, *symbolic::singularity_set_from_string(result.set), result, systems)) {
+    const System system = one.whole.compiled(one.whole.scales());
+    report.interrupted = !check::finishes([&] {
+      const auto samples = check::sample_parts(system, one.parts, options.seed, check::StopFlag(options.ended));
+      for (const std::string& failure : samples.failures)
+        verification.report.failures.push_back({Failure::Place::cover, 0, failure});
+      check::PartSamples& sum = verification.samples ? *verification.samples : verification.samples.emplace();
+      sum.of_set += samples.of_set;
+      sum.of_parts += samples.of_parts;
+      sum.failures.insert(sum.failures.end(), samples.failures.begin(), samples.failures.end());
+    });
+    if (report.interrupted) break;
+  }
   report.stage = "samples of the parts";
   add_failures(report, "samples", verification.report);
 }

@@ -1,11 +1,13 @@
 #include "corank/symbolic/sets/boundary.h"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
-#include "corank/certify/polynomial_algebra.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebra/ginac_bridge.h"
 #include "corank/symbolic/algebra/ginac_lock.h"
+#include "corank/symbolic/algebra/remembered.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
@@ -17,7 +19,7 @@ using Active = BoundaryPart::Active;
 
 constexpr std::size_t kMostParts = 1000;
 
-/// What the boundary asks of a mechanism: Φ and its derivative.
+/// What the boundary asks of a mechanism: Φ and its derivative, without the coordinates that are held.
 struct Outline {
   Mechanism mechanism;  // without a velocity equation of its own
   VelocityEquation velocity;
@@ -27,6 +29,35 @@ struct Outline {
        free = 0;  // outputs less dependencies are free: below 0 where more rows are those than there are outputs
 };
 
+// Without the columns of coordinates that have one value and are no outputs, and the equations in these alone.
+void leave_out_held(Outline& o) {
+  ExpressionMatrix& m = o.velocity.matrix;
+  for (std::size_t j = m.columns.size(); j-- > 0;) {
+    const Coordinate& c = o.mechanism.coordinates()[o.mechanism.find_coordinate(m.columns[j])];
+    if (m.roles[j] == Role::output || !is_fixed(c)) continue;
+    const auto at = static_cast<std::ptrdiff_t>(j);
+    m.columns.erase(m.columns.begin() + at);
+    m.roles.erase(m.roles.begin() + at);
+    for (auto& row : m.rows) row.erase(row.begin() + at);
+  }
+  for (std::size_t i = m.rows.size(); i-- > 0;) {
+    if (!std::ranges::all_of(m.rows[i], [](const Expression& e) { return same_tree(e, 0); })) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    m.rows.erase(m.rows.begin() + at);
+    o.velocity.where.erase(o.velocity.where.begin() + at);
+    o.phi.erase(o.phi.begin() + at);
+  }
+}
+
+void count(Outline& o) {
+  const Role output = Role::output;
+  o.mobility = std::ssize(o.velocity.matrix.columns) - std::ssize(o.phi);
+  o.dependencies = std::ssize(o.velocity.dependencies(std::span(&output, 1)));
+  o.free = std::ssize(o.mechanism.outputs()) - o.dependencies;
+}
+
+// A coordinate that has one value is held where the outputs are free all the same: else it is one that the mechanism holds,
+// such as the orientation of a platform that only translates, or the set is cut there.
 Outline outline(const Mechanism& mechanism) {
   Outline o{mechanism.without_rates(), {}, {}};
   const SourceLocation where{mechanism.name(), 0, 0};
@@ -40,10 +71,11 @@ Outline outline(const Mechanism& mechanism) {
   Derivation derivation = derive(o.mechanism);
   o.velocity = std::move(derivation.velocity);
   o.phi = std::move(derivation.phi);
-  o.mobility = std::ssize(o.velocity.matrix.columns) - std::ssize(o.phi);
-  const Role output = Role::output;
-  o.dependencies = std::ssize(o.velocity.dependencies(std::span(&output, 1)));
-  o.free = std::ssize(mechanism.outputs()) - o.dependencies;
+  count(o);
+  Outline held = o;
+  leave_out_held(held);
+  count(held);
+  if (held.free <= held.mobility) o = std::move(held);
   if (o.phi.empty() || o.free > o.mobility || o.free < 1)
     throw ModelError(where,
                      "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(o.free) +
@@ -84,48 +116,77 @@ KernelQuestion question(const Outline& o, const BoundaryPart& part) {
   return kernel;
 }
 
-// λᵀΦ and its derivatives.
-class Lagrangian {
- public:
-  Lagrangian(const Outline& o, const TrigonometricSystem& system)
-      : bridge_(names_of(system.constants), with(names_of(system.coordinates), system.kernel_unknowns)) {
-    const std::vector<Expression> lambda = scaled(system.kernel_unknowns, system.kernel_scales);
-    for (std::size_t i = 0; i < o.phi.size(); ++i)
-      value_ += bridge_.to_ginac(lambda[i], {}) * bridge_.to_ginac(o.phi[i], {});
-  }
+// Φ's derivatives, and those of λᵀΦ, as polynomials in the configuration's variables and, behind them, in λ: what the forms
+// of all parts are made of.
+struct SecondOrder {
+  int variables = 0;                       // of the configuration
+  std::vector<std::string> coordinates{};  // z first, then the outputs
+  std::size_t of_z = 0;
+  std::vector<Polynomial> jacobian{};  // by z, row by row
+  std::vector<Polynomial> gradient{};  // of λᵀΦ, by all coordinates
+  std::vector<Polynomial> hessian{};   // by z_j and z_k for k ≥ j, row by row
 
-  Expression by(const std::string& a) const { return bridge_.to_expression(value_.diff(bridge_.symbol(a))); }
-  Expression by(const std::string& a, const std::string& b) const {
-    return bridge_.to_expression(value_.diff(bridge_.symbol(a)).diff(bridge_.symbol(b)));
+  std::size_t place(const std::string& coordinate) const {
+    return static_cast<std::size_t>(std::ranges::find(coordinates, coordinate) - coordinates.begin());
   }
-
- private:
-  static std::vector<std::string> with(std::vector<std::string> names, const std::vector<std::string>& more) {
-    names.insert(names.end(), more.begin(), more.end());
-    return names;
+  const Polynomial& second(std::size_t j, std::size_t k) const {  // j ≤ k
+    return hessian[j * of_z - j * (j + 1) / 2 + k];
   }
-
-  GinacBridge bridge_;
-  GiNaC::ex value_ = 0;
 };
 
-// Rows times the scales of λ, columns times the sizes of their coordinates: N stays regular, and S is the form of ker Φ_z
-// in another basis.
-void take_out_units(const Mechanism& mechanism, const std::vector<std::string>& columns,
-                    const std::vector<std::string>& scales, PassageForm& form) {
-  const std::vector<std::string> sizes = coordinate_sizes(mechanism);
-  const UpwardRounding rounding;
-  std::vector<ExactNumber> by;
-  for (const std::string& name : columns) by.push_back(ExactNumber::rational(sizes[mechanism.find_coordinate(name)]));
-  const auto multiply = [](Polynomial& f, const ExactNumber& factor) { f = certify::sum({}, factor, f); };
-  std::size_t entry = 0;
-  for (int i = 0; i < form.equations; ++i) {
-    const ExactNumber row = scales.empty() ? ExactNumber(1) : ExactNumber::rational(scales[i]);
-    for (const ExactNumber& column : by) multiply(form.jacobian[entry++], row * column);
+// Nothing where they are none: sines of lengths.
+std::shared_ptr<const SecondOrder> found_second_order(const Outline& o, TrigonometricSystem system) {
+  SecondOrder result;
+  for (const Coordinate& c : o.mechanism.coordinates())
+    if (role_of(o.mechanism, c.name) != Role::output) result.coordinates.push_back(c.name);
+  result.of_z = result.coordinates.size();
+  const auto& outputs = o.mechanism.outputs();
+  result.coordinates.insert(result.coordinates.end(), outputs.begin(), outputs.end());
+  const std::vector<std::string> lambda = kernel_names(o.mechanism, o.phi.size(), 1, "lambda");
+  system.kernel_unknowns = lambda;
+  std::vector<Expression> values = symbols(lambda);
+  {
+    const GinacLock lock;
+    std::vector<std::string> names = names_of(system.coordinates);
+    names.insert(names.end(), lambda.begin(), lambda.end());
+    const GinacBridge bridge(names_of(system.constants), std::move(names));
+    GiNaC::ex value = 0;
+    for (std::size_t i = 0; i < o.phi.size(); ++i) value += bridge.to_ginac(values[i], {}) * bridge.to_ginac(o.phi[i], {});
+    std::vector<GiNaC::ex> first;
+    for (const std::string& name : result.coordinates) first.push_back(value.diff(bridge.symbol(name)));
+    const auto add = [&](const GiNaC::ex& e) { values.push_back(bridge.to_expression(e)); };
+    for (std::size_t i = 0; i < o.phi.size(); ++i)
+      for (std::size_t j = 0; j < result.of_z; ++j) add(first[j].diff(bridge.symbol(lambda[i])));
+    for (const GiNaC::ex& e : first) add(e);
+    for (std::size_t j = 0; j < result.of_z; ++j)
+      for (std::size_t k = j; k < result.of_z; ++k) add(first[j].diff(bridge.symbol(result.coordinates[k])));
   }
-  entry = 0;
-  for (std::size_t j = 0; j < by.size(); ++j)
-    for (std::size_t k = j; k < by.size(); ++k) multiply(form.hessian[entry++], by[j] * by[k]);
+  std::vector<Polynomial> all;
+  try {
+    all = polynomials(system, values);
+  } catch (const ModelError&) {
+    return nullptr;
+  }
+  auto next = std::make_move_iterator(all.begin());
+  const auto take = [&next](std::size_t n) {
+    std::vector<Polynomial> list(next, next + static_cast<std::ptrdiff_t>(n));
+    next += static_cast<std::ptrdiff_t>(n);
+    return list;
+  };
+  result.variables = take(lambda.size())[0].monomials[0].factors[0].variable;
+  result.jacobian = take(o.phi.size() * result.of_z);
+  result.gradient = take(result.coordinates.size());
+  result.hessian = take(result.of_z * (result.of_z + 1) / 2);
+  return std::make_shared<const SecondOrder>(std::move(result));
+}
+
+// Hundreds of parts ask for the same.
+std::shared_ptr<const SecondOrder> second_order(const Outline& o) {
+  using Asked = std::pair<TrigonometricSystem, std::vector<std::string>>;
+  static Remembered<Asked, std::shared_ptr<const SecondOrder>> remembered(2);
+  const auto alike = [](const Asked& a, const Asked& b) { return are_alike(a.first, b.first) && a.second == b.second; };
+  return remembered.of({plain_system(o.mechanism), o.mechanism.outputs()}, alike,
+                       [&o](const Asked& asked) { return found_second_order(o, asked.first); });
 }
 
 Polynomial constant(int value) {
@@ -148,7 +209,8 @@ std::string BoundaryPart::text() const {
   std::string text;
   for (const Active& a : active)
     text += (text.empty() ? "" : ", ") + a.coordinate + " at its " + (a.upper ? "upper" : "lower") + " limit";
-  return text.empty() ? "no limit" : text;
+  if (text.empty()) text = "no limit";
+  return component ? text + ": " + component->name : text;
 }
 
 std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
@@ -156,7 +218,8 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
   const std::size_t most = o.mobility - o.free + 1;
   std::vector<Limit> others, of_outputs;
   for (const Limit& limit : effective_limits(mechanism))
-    (role_of(mechanism, limit.coordinate) == Role::output ? of_outputs : others).push_back(limit);
+    if (std::ranges::find(o.velocity.matrix.columns, limit.coordinate) != o.velocity.matrix.columns.end())
+      (role_of(mechanism, limit.coordinate) == Role::output ? of_outputs : others).push_back(limit);
   std::vector<BoundaryPart> parts;
   std::vector<Active> chosen;
   for (std::size_t size = 0; size <= std::min(most, others.size()); ++size) add_choices(others, 0, size, chosen, parts);
@@ -171,38 +234,51 @@ KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& p
 }
 
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
-                                        const TrigonometricSystem& system) {
+                                        const TrigonometricSystem& system, const System& compiled) {
   const Outline o = outline(mechanism);
-  if (o.dependencies > 0) return std::nullopt;
+  if (o.dependencies > 0 || (part.component && part.component->factor)) return std::nullopt;
   if (part.of_output) return form_of_output(mechanism, part.active.front());
-  const KernelQuestion kernel = question(o, part);
+  const std::shared_ptr<const SecondOrder> all = second_order(o);
+  if (!all || compiled.configuration_size != all->variables) return std::nullopt;
+  const std::vector<std::string> columns = question(o, part).matrix.columns, sizes = coordinate_sizes(o.mechanism);
+  const std::size_t rows = o.phi.size();
+  std::vector<std::size_t> z;
+  std::vector<ExactNumber> by;  // columns times the sizes of their coordinates: S is the form of ker Φ_z in another basis
+  for (const std::string& name : columns) {
+    z.push_back(all->place(name));
+    by.push_back(ExactNumber::rational(sizes[o.mechanism.find_coordinate(name)]));
+  }
+  std::vector<ExactNumber> scales(rows, ExactNumber(1));
+  for (std::size_t i = 0; i < system.kernel_scales.size(); ++i) scales[i] = ExactNumber::rational(system.kernel_scales[i]);
+  // λ stands behind the configuration, or else behind all variables, and is a multiple of the system's unknowns.
+  const int first = part.has_multipliers ? all->variables : compiled.size();
+  const UpwardRounding rounding;
+  const auto value = [&](Polynomial f, const ExactNumber& factor) {
+    for (Monomial& m : f.monomials) {
+      ExactNumber coefficient = m.coefficient * factor;
+      for (Factor& x : m.factors)
+        if (const int i = x.variable - all->variables; i >= 0) {
+          coefficient = coefficient * scales[static_cast<std::size_t>(i)];
+          x.variable = first + i;
+        }
+      m = Monomial(std::move(coefficient), std::move(m.factors));
+    }
+    return f;
+  };
   PassageForm form;
-  form.equations = static_cast<int>(kernel.matrix.rows.size());
-  form.columns = static_cast<int>(kernel.matrix.columns.size());
-  std::vector<Expression> jacobian, hessian, slack, normal;
-  for (const auto& row : kernel.matrix.rows) jacobian.insert(jacobian.end(), row.begin(), row.end());
-  {
-    const GinacLock lock;
-    const Lagrangian lagrangian(o, system);
-    const std::vector<std::string>& z = kernel.matrix.columns;
+  form.equations = static_cast<int>(rows);
+  form.columns = static_cast<int>(columns.size());
+  for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t j = 0; j < z.size(); ++j)
-      for (std::size_t k = j; k < z.size(); ++k) hessian.push_back(lagrangian.by(z[j], z[k]));
-    for (const Active& active : part.active)
-      slack.push_back(active.upper ? -lagrangian.by(active.coordinate) : lagrangian.by(active.coordinate));
-    for (const std::string& u : mechanism.outputs()) normal.push_back(lagrangian.by(u));
-  }
-  try {
-    form.jacobian = polynomials(system, jacobian);
-    form.hessian = polynomials(system, hessian);
-    form.slack = polynomials(system, slack);
-    form.normal = polynomials(system, normal);
-  } catch (const ModelError&) {  // sines of lengths, which are no polynomials in the system's own variables
-    return std::nullopt;
-  }
-  take_out_units(o.mechanism, kernel.matrix.columns, system.kernel_scales, form);
-  // Unknowns stand behind the configuration's variables.
-  const int before = configurations(mechanism).size();
-  for (int i = 0; i < form.equations; ++i) form.multipliers.push_back(before + i);
+      form.jacobian.push_back(value(all->jacobian[i * all->of_z + z[j]], scales[i] * by[j]));
+  for (std::size_t j = 0; j < z.size(); ++j)
+    for (std::size_t k = j; k < z.size(); ++k)
+      form.hessian.push_back(value(all->second(std::min(z[j], z[k]), std::max(z[j], z[k])), by[j] * by[k]));
+  for (const Active& active : part.active)
+    form.slack.push_back(value(all->gradient[all->place(active.coordinate)], ExactNumber(active.upper ? -1 : 1)));
+  for (const std::string& u : mechanism.outputs())
+    form.normal.push_back(value(all->gradient[all->place(u)], ExactNumber(1)));
+  for (int i = 0; part.has_multipliers && i < form.equations; ++i) form.multipliers.push_back(first + i);
   return form;
 }
 

@@ -3,7 +3,8 @@
 // at which an inequality is reached.
 //
 // With Φ(q) = 0, mobility n = n_q − n_e, n_u ≤ n outputs, z all other coordinates and A a set of limited coordinates of
-// z, each at one of its limits:
+// z, each at one of its limits (where n_u ≤ n without those that have one value and are no outputs, q is without
+// them, and Φ without the equations in these alone):
 //   part A:          Φ(q) = 0,  q_i = limit (i ∈ A),  λᵀ Φ_{z_j} = 0 (z_j ∉ A),  ‖λ‖ = 1,  all limits hold
 //   part of a limited output u_i:   Φ(q) = 0,  u_i = limit,  all limits hold
 // Theorem (doc/theory.md, "Workspace boundaries"): the configurations from which the output cannot move, to first order and
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "corank/core/system.h"
+#include "corank/symbolic/sets/decomposition.h"
 #include "corank/symbolic/sets/limits.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
@@ -32,9 +34,12 @@ struct BoundaryPart {
     bool upper = false;
   };
   std::vector<Active> active;
-  bool of_output = false;  ///< `active` is one output, at its limit
+  bool of_output = false;       ///< `active` is one output, at its limit
+  bool has_multipliers = true;  ///< λ is a part of its system (set_parts.h)
+  /// In place of λᵀ Φ_{z_j} = 0, where these say that a square matrix is singular, and that is a union.
+  std::optional<Component> component{};
 
-  /// "no limit", "theta2 at its upper limit, theta5 at its lower limit".
+  /// "no limit", "theta2 at its upper limit, theta5 at its lower limit", "no limit: sin(theta2) = 0".
   std::string text() const;
 };
 
@@ -46,10 +51,10 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism);
 /// outputs) have none. A mechanism's own velocity equation has no say.
 KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& part);
 
-/// What decides about the passage, over algebrize(system), where `system` is the part's. Nothing where outputs have
-/// dependencies, or the equations hold sines of lengths.
+/// What decides about the passage, over compiled = algebrize(system), where `system` is the part's. Nothing where outputs
+/// have dependencies, the equations hold sines of lengths, or they lack coordinates of the robot.
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
-                                        const TrigonometricSystem& system);
+                                        const TrigonometricSystem& system, const System& compiled);
 
 /// The configurations of a mechanism, without what is no coordinate or its sine or cosine: what boxes of all parts have
 /// in common.

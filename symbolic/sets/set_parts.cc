@@ -16,13 +16,18 @@ std::string text(const SetPart& part) {
   return std::get<BoundaryPart>(part).text();
 }
 
+const Component* component_of(const SetPart& part) {
+  if (const auto* limits = std::get_if<BoundaryPart>(&part)) return limits->component ? &*limits->component : nullptr;
+  return std::get_if<Component>(&part);
+}
+
 bool is_named(const SetPart& part, const std::string& name) {
   const auto* component = std::get_if<Component>(&part);
   return text(part) == name || (component && !name.empty() && component->former_name == name);
 }
 
 std::vector<std::string> joints(const SetPart& part) {
-  const auto* component = std::get_if<Component>(&part);
+  const Component* component = component_of(part);
   return component ? component->joints : std::vector<std::string>();
 }
 
@@ -92,12 +97,43 @@ std::vector<Component> components(const Mechanism& mechanism, SingularitySet set
   return parts;
 }
 
+// Of a workspace's boundary.
+std::vector<BoundaryPart> without_multipliers(const Mechanism& mechanism, BoundaryPart part, const Ended& ended) {
+  if (part.of_output) return {part};
+  const KernelQuestion kernel = boundary_kernel(mechanism, part);
+  const std::size_t rows = kernel.matrix.rows.size(), columns = kernel.matrix.columns.size();
+  part.has_multipliers = columns >= rows;
+  std::vector<Component> components;
+  // The many parts of a redundant robot would take long.
+  if (columns == rows && part.active.empty()) components = decompose(mechanism, kernel, ended);
+  if (components.empty() || std::ranges::any_of(components, [](const Component& c) { return c.block.has_value(); }))
+    return {part};
+  components = simplified(mechanism, std::move(components), ended);
+  name_by_values(mechanism, components);
+  std::vector<BoundaryPart> result;
+  for (Component& component : components) {
+    result.push_back(part);
+    result.back().has_multipliers = false;
+    result.back().component = std::move(component);
+  }
+  return result;
+}
+
+std::vector<SetPart> simplified_boundary(const Mechanism& mechanism, const Ended& ended) {
+  std::vector<SetPart> result;
+  const Mechanism configurations = mechanism.without_rates();
+  for (BoundaryPart& part : boundary_parts(mechanism))
+    for (BoundaryPart& one : without_multipliers(configurations, std::move(part), ended))
+      result.emplace_back(std::move(one));
+  return result;
+}
+
 }  // namespace
 
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended,
                                const std::optional<FreeCoordinates>* free) {
   const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
-  if (definition(set).of_parts) return as_parts(boundary_parts(mechanism));
+  if (definition(set).of_parts) return simplified_boundary(mechanism, ended);
   if (definition(set).of_requirements) return as_parts(requirement_parts(mechanism));
   return as_parts(components(mechanism, set, ended, free));
 }
@@ -109,13 +145,15 @@ SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::
 
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, SetPart part)
     : mechanism_(definition(set).of_parts ? mechanism.without_rates() : mechanism), set_(set), part_(std::move(part)) {
-  if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {
-    if (!limits->of_output) kernel_.emplace(boundary_kernel(mechanism_, *limits));
+  const auto* limits = std::get_if<BoundaryPart>(&*part_);
+  const Component* component = component_of(*part_);
+  if (limits && !limits->of_output && limits->has_multipliers) {
+    kernel_.emplace(boundary_kernel(mechanism_, *limits));
   } else if (const auto* requirement = std::get_if<RequirementPart>(&*part_)) {
     kernel_.emplace(kernel_question(mechanism_, *requirement));
-  } else if (const std::optional<ExpressionMatrix>& block = std::get<Component>(*part_).block) {
-    const std::vector<SourceLocation> where(block->rows.size(), SourceLocation{mechanism.name(), 0, 0});
-    kernel_.emplace(KernelQuestion{definition(set), "B", *block, where, KernelSide::right, {}});
+  } else if (component && component->block) {
+    const std::vector<SourceLocation> where(component->block->rows.size(), SourceLocation{mechanism.name(), 0, 0});
+    kernel_.emplace(KernelQuestion{definition(set), "B", *component->block, where, KernelSide::right, {}});
   }
 }
 
@@ -130,16 +168,15 @@ std::vector<std::string> SetEquations::scales() const {
 
 TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales, int corank) const {
   if (!part_ && !kernel_) return singularity_system(mechanism_, set_, std::nullopt, scales, corank);
-  const auto* component = part_ ? std::get_if<Component>(&*part_) : nullptr;
+  const Component* component = part_ ? component_of(*part_) : nullptr;
   TrigonometricSystem system = kernel_                          ? singularity_system(mechanism_, *kernel_, scales, corank)
                                : component && component->factor ? *component->factor
                                                                 : plain_system(mechanism_);
   if (component && component->factor) system.coordinates_of_whole = mechanism_.coordinates();
   if (!kernel_) system.name += std::string(" ") + definition(set_).name;
   if (!part_) return system;
-  if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) {
-    set_at_limits(*limits, system);
-  } else if (component) {
+  if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) set_at_limits(*limits, system);
+  if (component) {
     if (component->stratum && !component->is_rest) {
       put_on(*component->stratum, mechanism_, system);
     } else {
@@ -172,9 +209,13 @@ void SetEquations::add_condition(const Component& part, TrigonometricSystem& sys
 System SetEquations::compiled(const std::vector<std::string>& scales) const {
   const TrigonometricSystem equations = system(scales);
   System compiled = algebrize(equations);
-  if (const auto* limits = part_ ? std::get_if<BoundaryPart>(&*part_) : nullptr)
-    compiled.passage = passage_form(mechanism_, *limits, equations);
+  compiled.passage = passage(equations, compiled);
   return compiled;
+}
+
+std::optional<PassageForm> SetEquations::passage(const TrigonometricSystem& equations, const System& compiled) const {
+  const auto* limits = part_ ? std::get_if<BoundaryPart>(&*part_) : nullptr;
+  return limits ? passage_form(mechanism_, *limits, equations, compiled) : std::nullopt;
 }
 
 }  // namespace corank::symbolic

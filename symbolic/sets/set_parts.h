@@ -23,10 +23,15 @@ using SetPart = std::variant<BoundaryPart, Component, RequirementPart>;
 std::string text(const SetPart& part);
 /// Is that its name, or the one that older programs gave it?
 bool is_named(const SetPart& part, const std::string& name);
+/// The condition of a part that has one in place of a kernel vector; else nullptr.
+const Component* component_of(const SetPart& part);
 /// Of a part in fewer coordinates those that give all others (Component::joints); else none.
 std::vector<std::string> joints(const SetPart& part);
 
 /// boundary_parts(), requirement_parts(), or decompose(). Throws ModelError as these do.
+/// A boundary's parts are without λ where that can be: all configurations with the largest number of limits reached are in
+/// their part, and the part without limits, where its matrix is square, is one for each of its components, if none of these
+/// has a block.
 /// Of an arm whose singularities have dimension 3 or more, a part is about the joints alone that its condition or a range
 /// mentions: it is the product of what is found there and of the other joints' ranges, and all other coordinates follow from
 /// the joints (free_coordinates.h). In all coordinates such a set would be too large for boxes.
@@ -48,6 +53,8 @@ class SetEquations {
   TrigonometricSystem system(const std::vector<std::string>& scales, int corank = 1) const;
   /// algebrize() of system(), of a boundary's part with its passage form.
   System compiled(const std::vector<std::string>& scales) const;
+  /// passage_form(); nothing of another set's part.
+  std::optional<PassageForm> passage(const TrigonometricSystem& equations, const System& compiled) const;
 
  private:
   void set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const;

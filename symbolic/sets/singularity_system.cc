@@ -289,6 +289,29 @@ void add_kernel(TrigonometricSystem& system, const Mechanism& mechanism, const K
 
 }  // namespace
 
+bool are_alike(const TrigonometricSystem& a, const TrigonometricSystem& b) {
+  const auto same = [](const auto& x, const auto& y, const auto& alike) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(), alike);
+  };
+  const auto constants = [](const Constant& x, const Constant& y) {
+    if (x.tolerance && y.tolerance &&
+        (!same_tree(x.tolerance->lower, y.tolerance->lower) || !same_tree(x.tolerance->upper, y.tolerance->upper)))
+      return false;
+    return x.name == y.name && same_tree(x.value, y.value) && x.tolerance.has_value() == y.tolerance.has_value();
+  };
+  const auto coordinates = [](const Coordinate& x, const Coordinate& y) {
+    return x.name == y.name && x.kind == y.kind && same_tree(x.lower, y.lower) && same_tree(x.upper, y.upper) &&
+           x.auxiliary == y.auxiliary && x.has_range == y.has_range && x.direction == y.direction &&
+           x.within_one == y.within_one;
+  };
+  const auto relations = [](const TrigonometricSystem::Equation& x, const TrigonometricSystem::Equation& y) {
+    return same_relation(x.relation, y.relation);
+  };
+  return same(a.constants, b.constants, constants) && same(a.coordinates, b.coordinates, coordinates) &&
+         same(a.equations, b.equations, relations) && same(a.inequalities, b.inequalities, relations) &&
+         same(a.claimed, b.claimed, relations);
+}
+
 TrigonometricSystem plain_system(const Mechanism& mechanism) {
   mechanism.validate();
   TrigonometricSystem system;

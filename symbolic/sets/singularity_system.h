@@ -54,6 +54,9 @@ struct TrigonometricSystem {
   std::vector<Equation> claimed;       ///< that the model says to follow from its equations
 };
 
+/// Are these the same configurations, in the same words: constants, coordinates, equations and inequalities?
+bool are_alike(const TrigonometricSystem& a, const TrigonometricSystem& b);
+
 /// What the kernel of a set is asked of, checked: that inputs and outputs are there and fit the mobility.
 struct KernelQuestion {
   const SetDefinition& set;

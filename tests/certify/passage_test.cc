@@ -23,7 +23,7 @@ Count count(double radius, std::size_t zeros, unsigned seed, int halvings = 0) {
     const auto equations = static_cast<std::size_t>(planter.number(1, 4)),
                kernel = static_cast<std::size_t>(planter.number(0, 3)),
                limits = static_cast<std::size_t>(planter.number(kernel == 0 ? 1 : 0, 2));
-    const test::PlantedPassage p = planter.plant(equations, kernel, limits, std::min(zeros, kernel + limits));
+    const test::PlantedPassage p = planter.plant(equations, kernel, limits, std::min(zeros, kernel + limits), i % 2 == 0);
     const PassageTest::Finding found = PassageTest(p.system).of(p.box(radius), halvings);
     ++c.all;
     if (found.passage == Passage::unproven) {
@@ -95,6 +95,10 @@ TEST(PassageOfABoundary, NeedsAKernelOfOneDimension) {
       for (int row : {0, 1, 2}) form.jacobian[static_cast<std::size_t>(row * form.columns + j)].monomials.clear();
     EXPECT_EQ(PassageTest(p.system).of(p.box(1e-7)).passage, Passage::unproven);
   }
+  test::PlantedPassage p = planter.plant(3, 1, 1, 0, false);
+  ASSERT_NE(PassageTest(p.system).of(p.box(1e-7)).passage, Passage::unproven);
+  for (Polynomial& f : p.system.passage->jacobian) f.monomials.clear();
+  EXPECT_EQ(PassageTest(p.system).of(p.box(1e-7)).passage, Passage::unproven) << "no λ is found";
 }
 
 // The form ((a, b), (b, c)) itself, a kernel of two dimensions without equations, or with (x, 1/10; 0, 0) for Φ_z.

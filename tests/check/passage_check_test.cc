@@ -23,11 +23,12 @@ bool holds(const test::PlantedPassage& p, double radius, Passage passage, const 
 TEST(PassageCheck, AcceptsWhatIsPlantedAndNothingElse) {
   test::PassagePlanter planter(11);
   int barriers = 0, traversable = 0, neither = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 120; ++i) {
     const auto kernel = static_cast<std::size_t>(planter.number(0, 3)),
                limits = static_cast<std::size_t>(planter.number(kernel == 0, 2));
-    const test::PlantedPassage p = planter.plant(static_cast<std::size_t>(planter.number(1, 4)), kernel, limits,
-                                                 std::min<std::size_t>(planter.number(0, 3) == 0, kernel + limits));
+    const test::PlantedPassage p =
+        planter.plant(static_cast<std::size_t>(planter.number(1, 4)), kernel, limits,
+                      std::min<std::size_t>(planter.number(0, 3) == 0, kernel + limits), i % 2 == 0);
     const std::vector<double> side = p.side(), other{-side[0], -side[1]};
     EXPECT_EQ(holds(p, 1e-8, Passage::barrier, side), p.is_barrier());
     EXPECT_FALSE(holds(p, 1e-8, Passage::barrier, other));
@@ -61,10 +62,12 @@ TEST(PassageCheck, KnowsOfNoPassageWithoutAForm) {
 
 TEST(PassageCheck, NeedsAKernelOfOneDimension) {
   test::PassagePlanter planter(14);
-  test::PlantedPassage p = planter.plant(3, 0, 1);
-  ASSERT_TRUE(holds(p, 1e-8, Passage::barrier, p.side()));
-  for (Polynomial& f : p.system.passage->jacobian) f.monomials.clear();
-  EXPECT_FALSE(holds(p, 1e-8, Passage::barrier, p.side()));
+  for (const bool has_multipliers : {true, false}) {
+    test::PlantedPassage p = planter.plant(3, 0, 1, 0, has_multipliers);
+    ASSERT_TRUE(holds(p, 1e-8, Passage::barrier, p.side()));
+    for (Polynomial& f : p.system.passage->jacobian) f.monomials.clear();
+    EXPECT_FALSE(holds(p, 1e-8, Passage::barrier, p.side()));
+  }
 }
 
 }  // namespace
