@@ -246,7 +246,9 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
   if (!choose(middle_box, basis)) return claim;
   const std::optional<IntervalMatrix> form = reduce(middle_box, basis);
   if (!form) return claim;
+  constexpr double kNoise = 1e-10;
   int plus = 0, minus = 0;
+  bool zero = false;
   const auto count = [&](double x) { ++(x > 0 ? plus : minus); };
   for (std::size_t i = 0; i < form_->slack.size(); ++i) count(value(slack(static_cast<int>(i)), middle_box).mid());
   if (form->rows > 0) {
@@ -254,8 +256,18 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
     if (!m.allFinite()) return claim;
     const Eigen::VectorXd values = symmetric_eigen(m).values;
     if (!values.allFinite()) return claim;
-    for (const double x : values) count(x);
+    // Motions that leave the output where it is, as a wrist's, have 0.
+    double largest = 0;
+    for (std::size_t i = 0; i < form_->hessian.size(); ++i)
+      largest = std::max(largest, value(form_->equations * form_->columns + static_cast<int>(i), middle_box).mag());
+    for (const double x : values) {
+      if (std::fabs(x) > kNoise * largest)
+        count(x);
+      else
+        zero = true;
+    }
   }
+  if (zero && (plus == 0 || minus == 0)) return claim;
   for (int i = 0; i < static_cast<int>(form_->normal.size()); ++i) claim.side.push_back(value(normal(i), middle_box).mid());
   // Outputs of unlike units: the one whose numbers are largest may steer the normal, and have no sign over the box.
   if (Box whole = box; enclose_multipliers(whole) && along_normal(claim.side, whole).contains_zero())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "corank/check/inertia.h"
 #include "corank/check/krawczyk.h"
@@ -11,6 +12,7 @@
 namespace corank::check {
 namespace {
 constexpr int kMostPassageParts = 500;
+constexpr std::size_t kMostRowsTried = 5;
 }  // namespace
 
 PassageCheck::PassageCheck(const System& system, const StopFlag& stop)
@@ -34,28 +36,39 @@ PassageCheck::PassageCheck(const System& system, const StopFlag& stop)
   inequalities_ = rows_of(system.inequalities, system.size());
 }
 
-bool PassageCheck::enclose_multipliers(Sides& x) const {
-  if (multipliers_.empty() || multipliers_.front() < variables_) return true;
+std::vector<Sides> PassageCheck::with_multipliers(const Sides& part) const {
+  if (multipliers_.empty() || multipliers_.front() < variables_) return {part};
+  Sides x = part;
+  x.resize(part.size() + multipliers_.size());
   const std::vector<Sides> rows = values(jacobian_, x);
   const std::size_t n = rows.size();
-  if (columns_ + 1 < n) return false;
   Eigen::MatrixXd middle(n, columns_);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < columns_; ++j) middle(i, j) = rows[i][j].mid();
     if (const double size = middle.row(i).lpNorm<Eigen::Infinity>(); size > 0) middle.row(i) /= size;  // in any unit
   }
-  if (!middle.allFinite()) return false;
-  Eigen::Index passed = 0;  // det N is a multiple of its λ
-  if (n > 1) decompose(middle).u.col(static_cast<Eigen::Index>(n) - 1).cwiseAbs().maxCoeff(&passed);
-  middle.row(passed).setZero();
-  const Pivots chosen = pivots(std::move(middle), n - 1);  // N's rows and columns
-  if (chosen.rows.size() + 1 < n) return false;
-  std::vector<Sides> transposed(n - 1, Sides(n));
-  for (std::size_t k = 0; k + 1 < n; ++k)
-    for (std::size_t i = 0; i < n; ++i) transposed[k][i] = rows[i][chosen.columns[k]];
-  const auto lambda = kernel_basis(transposed, chosen.rows, all_but(chosen.rows, static_cast<int>(n)));
-  for (std::size_t i = 0; lambda && i < n; ++i) x[multipliers_[i]] = (*lambda)[i][0];
-  return lambda.has_value();
+  if (columns_ + 1 < n || !middle.allFinite()) return {};
+  std::vector<Eigen::Index> order(n);  // det N is a multiple of the λ of the row that it passes over
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  if (n > 1) {
+    const Eigen::VectorXd about = decompose(middle).u.col(static_cast<Eigen::Index>(n) - 1).cwiseAbs();
+    std::ranges::sort(order, [&](Eigen::Index i, Eigen::Index j) { return about(i) > about(j); });
+  }
+  std::vector<Sides> result;
+  for (std::size_t attempt = 0; attempt < std::min(n, kMostRowsTried); ++attempt) {
+    Eigen::MatrixXd others = middle;
+    others.row(order[attempt]).setZero();
+    const Pivots chosen = pivots(std::move(others), n - 1);  // N's rows and columns
+    if (chosen.rows.size() + 1 < n) continue;
+    std::vector<Sides> transposed(n - 1, Sides(n));
+    for (std::size_t k = 0; k + 1 < n; ++k)
+      for (std::size_t i = 0; i < n; ++i) transposed[k][i] = rows[i][chosen.columns[k]];
+    const auto lambda = kernel_basis(transposed, chosen.rows, all_but(chosen.rows, static_cast<int>(n)));
+    if (!lambda) continue;
+    for (std::size_t i = 0; i < n; ++i) x[multipliers_[i]] = (*lambda)[i][0];
+    result.push_back(x);
+  }
+  return result;
 }
 
 std::optional<std::vector<Sides>> PassageCheck::form(const Sides& x) const {
@@ -70,10 +83,7 @@ std::optional<std::vector<Sides>> PassageCheck::form(const Sides& x) const {
   return form_on_kernel(h, rows);
 }
 
-bool PassageCheck::holds(const CoverBox& box, const Sides& part) const {
-  Sides x = part;
-  x.resize(part.size() + (multipliers_.empty() || multipliers_.front() < variables_ ? 0 : multipliers_.size()));
-  if (!enclose_multipliers(x)) return false;
+bool PassageCheck::holds_with_multipliers(const CoverBox& box, const Sides& x) const {
   Enclosure along;  // n·side
   for (std::size_t i = 0; i < normal_.size(); ++i) along.add_product(box.side[i], normal_[i].value(x));
   if (along.has_zero()) return false;
@@ -94,6 +104,10 @@ bool PassageCheck::holds(const CoverBox& box, const Sides& part) const {
     if (!(sign > 0 ? mu.is_positive() : mu.is_negative())) return false;
   const std::optional<Inertia> signs = inertia(*s);
   return signs && (sign > 0 ? signs->negative : signs->positive) == 0;
+}
+
+bool PassageCheck::holds(const CoverBox& box, const Sides& part) const {
+  return std::ranges::any_of(with_multipliers(part), [&](const Sides& x) { return holds_with_multipliers(box, x); });
 }
 
 bool PassageCheck::contract(Sides& x) const {

@@ -23,11 +23,12 @@ class PassageCheck {
   std::string fault(const CoverBox& box) const;
 
  private:
-  // Of every solution in x, which has as many further sides, a λ where the system has none. False: not shown.
-  bool enclose_multipliers(Sides& x) const;
+  // x, and behind it of every solution in it a λ, where the system has none: in several ways, each of which holds.
+  std::vector<Sides> with_multipliers(const Sides& x) const;
   // The reduced form S over x; nothing where the hypotheses about λ and N are not shown.
   std::optional<std::vector<Sides>> form(const Sides& x) const;
-  bool holds(const CoverBox& box, const Sides& x) const;
+  bool holds(const CoverBox& box, const Sides& part) const;
+  bool holds_with_multipliers(const CoverBox& box, const Sides& x) const;
   bool contract(Sides& x) const;
 
   StopFlag stop_;

@@ -168,49 +168,26 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
   return list;
 }
 
-// A set with a kernel vector, and the parts that are together the same configurations.
-struct Union {
-  symbolic::SetEquations whole;
-  std::string limits{};  // of a boundary, which of them are reached
-  std::vector<check::PartOfSet> parts{};
-};
-
-// Of a boundary one for each choice of limits whose parts have no λ.
-std::vector<Union> unions_of(const symbolic::Mechanism& model, symbolic::SingularitySet set, const Result& result,
-                             const std::vector<System>& systems) {
-  std::vector<Union> unions;
-  if (symbolic::definition(set).of_requirements) return unions;
-  const std::vector<symbolic::SetPart> parts = parts_of(model, set, result.parts);
-  for (std::size_t i = 0; i < systems.size(); ++i) {
-    if (const auto* limits = std::get_if<symbolic::BoundaryPart>(&parts[i])) {
-      if (limits->of_output || limits->has_multipliers) continue;
-      const symbolic::BoundaryPart whole{limits->active};
-      if (unions.empty() || unions.back().limits != whole.text())
-        unions.push_back({symbolic::SetEquations(model, set, whole), whole.text()});
-    } else if (unions.empty()) {
-      unions.push_back({symbolic::SetEquations(model, set)});
-    }
-    unions.back().parts.push_back({result.parts[i].part, systems[i], result.parts[i].free_coordinates});
-  }
-  return unions;
-}
-
+// Of the parts with a condition in place of the set's kernel vector. Of a boundary they are together the part without limits.
 void sample_parts(const symbolic::Mechanism& model, const Result& result, const std::vector<System>& systems,
                   const check::Options& options, Verification& verification) {
+  const auto set = *symbolic::singularity_set_from_string(result.set);
+  const std::vector<symbolic::SetPart> all = parts_of(model, set, result.parts);
+  std::vector<check::PartOfSet> parts;
+  for (std::size_t i = 0; i < systems.size(); ++i)
+    if (component_of(all[i]) != nullptr)
+      parts.push_back({result.parts[i].part, systems[i], result.parts[i].free_coordinates});
+  if (parts.empty()) return;
+  const symbolic::SetEquations whole = symbolic::definition(set).of_parts
+                                           ? symbolic::SetEquations(model, set, symbolic::BoundaryPart{})
+                                           : symbolic::SetEquations(model, set);
+  const System system = whole.compiled(whole.scales());
   Report report;
-  for (const Union& one : unions_of(model, *symbolic::singularity_set_from_string(result.set), result, systems)) {
-    const System system = one.whole.compiled(one.whole.scales());
-    report.interrupted = !check::finishes([&] {
-      const auto samples = check::sample_parts(system, one.parts, options.seed, check::StopFlag(options.ended));
-      for (const std::string& failure : samples.failures)
-        verification.report.failures.push_back({Failure::Place::cover, 0, failure});
-      check::PartSamples& sum = verification.samples ? *verification.samples : verification.samples.emplace();
-      sum.of_set += samples.of_set;
-      sum.of_parts += samples.of_parts;
-      sum.failures.insert(sum.failures.end(), samples.failures.begin(), samples.failures.end());
-    });
-    if (report.interrupted) break;
-  }
+  report.interrupted = !check::finishes([&] {
+    verification.samples = check::sample_parts(system, parts, options.seed, check::StopFlag(options.ended));
+    for (const std::string& failure : verification.samples->failures)
+      verification.report.failures.push_back({Failure::Place::cover, 0, failure});
+  });
   report.stage = "samples of the parts";
   add_failures(report, "samples", verification.report);
 }

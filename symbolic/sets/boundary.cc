@@ -29,12 +29,12 @@ struct Outline {
        free = 0;  // outputs less dependencies are free: below 0 where more rows are those than there are outputs
 };
 
-// Without the columns of coordinates that have one value and are no outputs, and the equations in these alone.
+// Without the columns of passive coordinates that have one value, and the equations in these alone.
 void leave_out_held(Outline& o) {
   ExpressionMatrix& m = o.velocity.matrix;
   for (std::size_t j = m.columns.size(); j-- > 0;) {
     const Coordinate& c = o.mechanism.coordinates()[o.mechanism.find_coordinate(m.columns[j])];
-    if (m.roles[j] == Role::output || !is_fixed(c)) continue;
+    if (m.roles[j] != Role::passive || !is_fixed(c)) continue;
     const auto at = static_cast<std::ptrdiff_t>(j);
     m.columns.erase(m.columns.begin() + at);
     m.roles.erase(m.roles.begin() + at);

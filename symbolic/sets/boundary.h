@@ -3,7 +3,7 @@
 // at which an inequality is reached.
 //
 // With Φ(q) = 0, mobility n = n_q − n_e, n_u ≤ n outputs, z all other coordinates and A a set of limited coordinates of
-// z, each at one of its limits (where n_u ≤ n without those that have one value and are no outputs, q is without
+// z, each at one of its limits (where n_u ≤ n without the passive ones that have one value, q is without
 // them, and Φ without the equations in these alone):
 //   part A:          Φ(q) = 0,  q_i = limit (i ∈ A),  λᵀ Φ_{z_j} = 0 (z_j ∉ A),  ‖λ‖ = 1,  all limits hold
 //   part of a limited output u_i:   Φ(q) = 0,  u_i = limit,  all limits hold

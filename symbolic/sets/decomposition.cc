@@ -127,11 +127,15 @@ class Decomposer {
  public:
   Decomposer(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi,
              const Ended& ended)
-      : ended_(ended), is_points_(mobility(mechanism) < 2), space_(mechanism), matrix_(mechanism, matrix, phi) {}
+      : ended_(ended),
+        is_points_(mobility(mechanism) < 2),
+        space_(mechanism),
+        matrix_(mechanism, matrix, phi, ExactMatrix::Shape::wide) {}
 
   std::vector<Component> run() {
     matrix_.put_into_free_coordinates(ended_);
     matrix_.eliminate_numbers();
+    matrix_.leave_out_zero_columns();
     const auto blocks = matrix_.blocks();
     if (!blocks) return {};
     for (const SquareBlock& block : *blocks) {
@@ -247,7 +251,7 @@ std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestio
   std::erase_if(matrix.rows, [](const std::vector<Expression>& row) {
     return std::ranges::all_of(row, [](const Expression& e) { return same_tree(e, 0); });
   });
-  if (!kernel.also.empty() || matrix.rows.size() != matrix.columns.size()) return {};
+  if (!kernel.also.empty() || matrix.rows.size() > matrix.columns.size()) return {};
   PassiveRates passive = eliminate_passive_rates(mechanism, matrix);
   return Decomposer(mechanism, passive.eliminated.empty() ? matrix : passive.matrix, phi, ended).run();
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/free_fold.h"
@@ -86,9 +87,10 @@ std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Compon
 }
 
 // Of an arm with a large set in its joints, if that can be done.
-std::vector<Component> components(const Mechanism& mechanism, SingularitySet set, const Ended& ended,
-                                  const std::optional<FreeCoordinates>* known) {
-  std::vector<Component> parts = decompose(mechanism, kernel_question(mechanism, set), ended);
+std::vector<Component> components(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended,
+                                  const std::optional<FreeCoordinates>* known = nullptr) {
+  std::vector<Component> parts = decompose(mechanism, kernel, ended);
+  if (parts.empty()) return parts;
   const std::optional<FreeCoordinates> free = known != nullptr ? *known : free_coordinates(mechanism);
   std::vector<Component> in_joints = parts;
   const bool leaves_out = free && is_large(*free) && leave_out_coordinates(*free, in_joints);
@@ -97,21 +99,39 @@ std::vector<Component> components(const Mechanism& mechanism, SingularitySet set
   return parts;
 }
 
+// Of an arm the outputs' derivatives by its joints, which have lost rank where the kernel's matrix has: the equations of all
+// other coordinates have each an entry 1 of their own.
+void put_into_joints(const Mechanism& mechanism, const FreeCoordinates& free, KernelQuestion& kernel) {
+  std::map<std::string, Expression> values;
+  for (const Relation& r : free.given) values.emplace(r.lhs.name(), r.rhs.substituted(values));
+  std::vector<Expression> outputs;
+  for (const std::string& u : mechanism.outputs())
+    if (const auto value = values.find(u); value != values.end()) outputs.push_back(value->second);
+  ExpressionMatrix matrix;
+  for (const Coordinate& c : free.system.coordinates)
+    if (std::ranges::find(kernel.matrix.columns, c.name) != kernel.matrix.columns.end()) {
+      matrix.columns.push_back(c.name);
+      matrix.roles.push_back(role_of(mechanism, c.name));
+    }
+  for (Derivatives& d : derivatives(mechanism, matrix.columns, outputs)) matrix.rows.push_back(std::move(d.first));
+  kernel.matrix = std::move(matrix);
+}
+
 // Of a workspace's boundary.
 std::vector<BoundaryPart> without_multipliers(const Mechanism& mechanism, BoundaryPart part, const Ended& ended) {
   if (part.of_output) return {part};
-  const KernelQuestion kernel = boundary_kernel(mechanism, part);
-  const std::size_t rows = kernel.matrix.rows.size(), columns = kernel.matrix.columns.size();
-  part.has_multipliers = columns >= rows;
-  std::vector<Component> components;
-  // The many parts of a redundant robot would take long.
-  if (columns == rows && part.active.empty()) components = decompose(mechanism, kernel, ended);
-  if (components.empty() || std::ranges::any_of(components, [](const Component& c) { return c.block.has_value(); }))
+  KernelQuestion kernel = boundary_kernel(mechanism, part);
+  part.has_multipliers = kernel.matrix.columns.size() >= kernel.matrix.rows.size();
+  std::vector<Component> conditions;
+  if (part.active.empty()) {  // the many others would take long
+    const std::optional<FreeCoordinates> free = free_coordinates(mechanism);
+    if (free) put_into_joints(mechanism, *free, kernel);
+    conditions = components(mechanism, kernel, ended, &free);
+  }
+  if (conditions.empty() || std::ranges::any_of(conditions, [](const Component& c) { return c.block.has_value(); }))
     return {part};
-  components = simplified(mechanism, std::move(components), ended);
-  name_by_values(mechanism, components);
   std::vector<BoundaryPart> result;
-  for (Component& component : components) {
+  for (Component& component : conditions) {
     result.push_back(part);
     result.back().has_multipliers = false;
     result.back().component = std::move(component);
@@ -135,7 +155,7 @@ std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, c
   const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
   if (definition(set).of_parts) return simplified_boundary(mechanism, ended);
   if (definition(set).of_requirements) return as_parts(requirement_parts(mechanism));
-  return as_parts(components(mechanism, set, ended, free));
+  return as_parts(components(mechanism, kernel_question(mechanism, set), ended, free));
 }
 
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side)

@@ -134,13 +134,14 @@ class ExactMatrix::Unknowns {
   std::vector<std::pair<std::size_t, RationalPolynomial>> square_roots_;
 };
 
-ExactMatrix::ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi)
+ExactMatrix::ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi,
+                         Shape shape)
     : where_{mechanism.name(), 0, 0}, columns_(matrix.columns), equations_(phi.size()) {
   const std::size_t n = matrix.rows.size();
-  if (n != columns_.size())
+  if (shape == Shape::square ? n != columns_.size() : n > columns_.size())
     throw ModelError(where_,
                      "a matrix with " + std::to_string(n) + " rows and " + std::to_string(columns_.size()) + " columns",
-                     "a square one");
+                     shape == Shape::square ? "a square one" : "at most as many rows as columns");
   unknowns_ = std::make_unique<Unknowns>(mechanism, where_);
   std::vector<std::vector<GiNaC::ex>> entries(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -174,12 +175,22 @@ ExactMatrix::~ExactMatrix() = default;
 std::vector<std::vector<std::size_t>> ExactMatrix::filled() const {
   std::vector<std::vector<std::size_t>> result(size());
   for (std::size_t i = 0; i < size(); ++i)
-    for (std::size_t j = 0; j < size(); ++j)
+    for (std::size_t j = 0; j < columns_.size(); ++j)
       if (!rows_[i][j].is_zero()) result[i].push_back(j);
   return result;
 }
 
-std::optional<std::vector<SquareBlock>> ExactMatrix::blocks() const { return block_triangular_form(filled()); }
+std::optional<std::vector<SquareBlock>> ExactMatrix::blocks() const {
+  return size() == columns_.size() ? block_triangular_form(filled()) : std::nullopt;
+}
+
+void ExactMatrix::leave_out_zero_columns() {
+  for (std::size_t j = columns_.size(); j-- > 0 && columns_.size() > size();) {
+    if (!std::ranges::all_of(rows_, [j](const auto& row) { return row[j].is_zero(); })) continue;
+    for (auto& row : rows_) row.erase(row.begin() + static_cast<std::ptrdiff_t>(j));
+    columns_.erase(columns_.begin() + static_cast<std::ptrdiff_t>(j));
+  }
+}
 
 void ExactMatrix::eliminate_numbers() {
   while (eliminate_a_number()) {
@@ -189,7 +200,7 @@ void ExactMatrix::eliminate_numbers() {
 // Of all such entries the one that fills the fewest others.
 bool ExactMatrix::eliminate_a_number() {
   const auto entries = filled();
-  std::vector<std::size_t> in_column(size(), 0);
+  std::vector<std::size_t> in_column(columns_.size(), 0);
   for (const auto& row : entries)
     for (const std::size_t j : row) ++in_column[j];
   std::size_t least = 0, row = size(), column = 0;

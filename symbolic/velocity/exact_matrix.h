@@ -1,5 +1,6 @@
-// A square matrix of expressions as polynomials over the rational numbers, and what leaves its zeros as they are: rows
-// eliminated by entries that are numbers, the block triangular form of the rest, determinants of its blocks.
+// A matrix of expressions as polynomials over the rational numbers, and what leaves its zeros as they are: rows eliminated by
+// entries that are numbers, the block triangular form of the rest, determinants of its blocks. A square one, or a wide one
+// whose columns beyond that become zero: where has it not the rank of its rows?
 #pragma once
 
 #include <cstddef>
@@ -23,19 +24,23 @@ class DeterminantTooLarge : public ModelError {
 
 class ExactMatrix {
  public:
+  enum class Shape { square, wide };
   /// Coordinates, constants, sines, cosines and irrational numbers are the unknowns. Holds GiNaC's lock while it lives.
-  /// `phi`: Φ, for in_free_coordinates(). Throws ModelError where M is not square, or an entry is no polynomial in
+  /// `phi`: Φ, for in_free_coordinates(). Throws ModelError where M does not have that shape, or an entry is no polynomial in
   /// coordinates, sines and cosines.
-  ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi = {});
+  ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi = {},
+              Shape shape = Shape::square);
   ~ExactMatrix();
 
   /// det M = ± c det M', where c is an entry that is a number and M' is M without its row and column, after multiples of the
   /// row have made the rest of the column zero. M becomes M', and so on, while there is such an entry.
   void eliminate_numbers();
+  /// Of a wide M: its rank is the same without them.
+  void leave_out_zero_columns();
   std::size_t size() const { return rows_.size(); }
   /// The columns' names.
   const std::vector<std::string>& columns() const { return columns_; }
-  /// block_triangular_form() of the pattern.
+  /// block_triangular_form() of the pattern; nothing where M is not square.
   std::optional<std::vector<SquareBlock>> blocks() const;
   /// By Laplace's expansion along one row after the other; minors of the same columns are summed once. Throws
   /// DeterminantTooLarge above 16 rows, or above 20,000 terms.

@@ -1,5 +1,6 @@
 // Workspace boundaries against closed forms: sampled configurations are in boxes of their part, and what is said of the
 // passage there is what second derivatives in floating point say.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -14,6 +15,7 @@
 #include "corank/core/dense.h"
 #include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
+#include "corank/study/model.h"
 #include "corank/symbolic/model/model_file.h"
 #include "corank/symbolic/sets/boundary.h"
 #include "corank/tests/seeds.h"
@@ -408,6 +410,106 @@ TEST(WorkspaceBoundary, OfDextarWithLimitedInputsHasEverySampledConfiguration) {
   EXPECT_LE(tally.unproven, tally.proven / 50);
 }
 
+study::Question about_boundary(symbolic::Mechanism model) {
+  return {.model = std::move(model), .set = symbolic::SingularitySet::boundary};
+}
+
+// Uncut, as the program does where no sigma is given; or cut.
+result::Result surface_of(const study::Model& model, const std::optional<double>& sigma = std::nullopt) {
+  study::Options options;
+  options.search.sigma = sigma;
+  options.search.surfaces_whole = !sigma;
+  return study::answer(about_boundary(model.mechanism), options);
+}
+
+// A Gough platform in one orientation, its legs' lengths limited: with a leg at its limit the output moves to one side of the
+// sphere on which the platform's joint is.
+TEST(WorkspaceBoundary, OfAPlatformInOneOrientationIsThatOfItsLegs) {
+  const std::string text = R"([CONSTANTS]
+r := 3/5
+[LINKS]
+base : point A1 (1, 0, 0) point A2 (0, 1, 0) point A3 (-1, 0, 0) point A4 (-1/2, -1, 0)
+  point A5 (1/5, -1, 0) point A6 (1, -1/2, 0)
+plate : point C (0, 0, 0) point B1 (r, 1/5, 0) point B2 (1/5, r, 0) point B3 (-r, 1/5, 0) point B4 (-r, -1/5, 0)
+  point B5 (0, -r, 0) point B6 (r, -1/5, 0)
+[JOINTS]
+)";
+  std::string legs;
+  for (int i = 1; i <= 6; ++i) legs += fmt::format("sph_prs_sph leg{0} : base A{0} plate B{0} range [1, 3/2] actuated\n", i);
+  const study::Model model = study::parse_model(
+      {text + legs + "[OUTPUTS]\nP : pose of plate.C range x [-2, 2] y [-2, 2] z [0, 2] keeps Rz(1/5)*Rx(1/10)\n",
+       "gough.cuik"});
+  const result::Result result = surface_of(model, 0.3);
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_TRUE(result::verify(result).verified());
+  EXPECT_EQ(choices_of_limits(result), 13u);
+  // a_i and R b_i.
+  const Eigen::Matrix3d turn =
+      (Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  const std::array<Eigen::Vector3d, 6> a{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {-0.5, -1, 0}, {0.2, -1, 0}, {1, -0.5, 0}}},
+      b{{{0.6, 0.2, 0}, {0.2, 0.6, 0}, {-0.6, 0.2, 0}, {-0.6, -0.2, 0}, {0, -0.6, 0}, {0.6, -0.2, 0}}};
+  const auto leg = [&](std::size_t i, const Eigen::Vector3d& p) { return Eigen::Vector3d(p + turn * b[i] - a[i]); };
+  std::array<int, 3> at{};
+  for (std::size_t v = 0; v < result.variables.size(); ++v)
+    for (int k = 0; k < 3; ++k)
+      if (result.variables[v].name == std::array{"P_x", "P_y", "P_z"}[k]) at[k] = static_cast<int>(v);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::size_t samples = 0, barriers = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const std::size_t i = k % 6;
+    const bool upper = k % 12 < 6;
+    const Eigen::Vector3d direction = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    const Eigen::Vector3d p = a[i] - turn * b[i] + (upper ? 1.5 : 1.0) * direction;
+    bool inside = p[2] > 0 && p.cwiseAbs().maxCoeff() < 2;
+    for (std::size_t j = 0; j < 6; ++j) inside = inside && (j == i || (leg(j, p).norm() > 1 && leg(j, p).norm() < 1.5));
+    if (!inside) continue;
+    ++samples;
+    bool found = false;
+    for (const CoverBox& box : result.cover.boxes) {
+      bool holds = limits_of(result.parts[static_cast<std::size_t>(box.part)]) ==
+                   fmt::format("leg{} at its {} limit", i + 1, upper ? "upper" : "lower");
+      for (int j = 0; j < 3; ++j) holds = holds && box.box[at[j]].lo() - 1e-9 <= p[j] && p[j] <= box.box[at[j]].hi() + 1e-9;
+      if (!holds) continue;
+      found = true;
+      EXPECT_NE(box.passage, Passage::traversable);
+      if (box.passage != Passage::barrier) continue;
+      ++barriers;
+      const Eigen::Vector3d side(box.side[0], box.side[1], box.side[2]);
+      EXPECT_GT((upper ? -1 : 1) * side.dot(leg(i, p)), 0) << "towards lengths that the leg can have";
+    }
+    EXPECT_TRUE(found) << p.transpose();
+  }
+  EXPECT_GT(samples, 50u);
+  EXPECT_GT(barriers, 50u);
+}
+
+// The wrist of a PUMA 560 does not move its hand's place: the boundary is where the forearm is on a line with the upper arm.
+TEST(WorkspaceBoundary, OfAnArmWithAWristIsThatOfItsOtherJoints) {
+  const study::Model model = study::read_model(CORANK_SOURCE_DIR "/models/serial/puma_560.cuik");
+  const result::Result result = surface_of(model);
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_EQ(result.cover.count(Verdict::undecided), 0u);
+  EXPECT_LT(result.cover.boxes.size(), 5000u);
+  EXPECT_TRUE(result::verify(result).verified());
+  const auto side = [&](const CoverBox& box, const std::string& angle) {
+    const auto own = std::ranges::find(result.angles, angle, &Angle::name);
+    return std::pair(box.box[static_cast<std::size_t>(own->cosine)], box.box[static_cast<std::size_t>(own->sine)]);
+  };
+  const double elbow = std::atan2(-0.4318, 0.0203);
+  for (const double t2 : steps(-kPi, kPi, 30))
+    for (const double t3 : {elbow, elbow + kPi})
+      EXPECT_TRUE(std::ranges::any_of(result.cover.boxes, [&](const CoverBox& box) {
+        const auto holds = [&](const std::string& name, double t) {
+          const auto [c, s] = side(box, name);
+          return std::fabs(c.mid() - std::cos(t)) <= c.width() / 2 + 1e-9 &&
+                 std::fabs(s.mid() - std::sin(t)) <= s.width() / 2 + 1e-9;
+        };
+        return holds("theta2", t2) && holds("theta3", t3);
+      })) << t2;
+}
+
 // The area by samples on a grid, wrong by less than the cells along the boundary.
 double sampled_area(double reach, int n, const std::function<bool(const Vector2d&)>& reaches) {
   int inside = 0;
@@ -439,10 +541,6 @@ TEST(WorkspaceArea, IsBetweenItsBounds) {
     before = bounds;
   }
   EXPECT_GT(before.lo, 0.6 * before.hi);
-}
-
-study::Question about_boundary(symbolic::Mechanism model) {
-  return {.model = std::move(model), .set = symbolic::SingularitySet::boundary};
 }
 
 TEST(WorkspaceArea, IsKnownByItsBoundary) {

@@ -53,7 +53,18 @@ struct RandomArm {
     return text + "[OUTPUTS]\nhand : pose of tool\n";
   }
 
-  double determinant(const std::map<std::string, double>& q) const {
+  /// Axes that meet in the hand's place: the last three joints do not move it.
+  void set_wrist() {
+    rows[3].a = 0;
+    for (const std::size_t i : {4U, 5U}) rows[i].a = rows[i].d = 0;
+  }
+
+  double determinant(const std::map<std::string, double>& q) const { return jacobian(q).determinant(); }
+  double position_determinant(const std::map<std::string, double>& q) const {
+    return jacobian(q).topLeftCorner<3, 3>().determinant();
+  }
+
+  Eigen::Matrix<double, 6, 6> jacobian(const std::map<std::string, double>& q) const {
     Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     std::vector<Eigen::Vector3d> axes, places;
@@ -70,7 +81,7 @@ struct RandomArm {
     Eigen::Matrix<double, 6, 6> jacobian;
     for (std::size_t i = 0; i < axes.size(); ++i)
       jacobian.col(static_cast<Eigen::Index>(i)) << axes[i].cross(at - places[i]), axes[i];
-    return jacobian.determinant();
+    return jacobian;
   }
 
   std::vector<Row> rows;
@@ -145,6 +156,54 @@ TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
   EXPECT_EQ(with_vectors, 0);
   EXPECT_GT(on_parts, 2 * arms);
   EXPECT_GT(on_determinants, 2 * arms);
+}
+
+// Of a position by six joints, which three of them make.
+TEST(SetPartsOf, BoundariesOfRandomArmsWithAWristAreConditionsOnThreeJoints) {
+  constexpr double kZero = 1e-7;
+  int arms = 0, on_parts = 0, on_determinants = 0, with_multipliers = 0;
+  for (unsigned seed = 1; seed <= test::seeds(12); ++seed) {
+    SCOPED_TRACE(seed);
+    RandomArm arm(seed);
+    arm.set_wrist();
+    std::mt19937 random(seed);
+    const auto point = [&] {
+      Posture q;
+      for (int i = 1; i <= 6; ++i) q[fmt::format("q{}", i)] = std::uniform_real_distribution<>(-pi, pi)(random);
+      return q;
+    };
+    const auto zero = [&](const auto& f) { return zero_between(point(), point(), f); };
+    const auto determinant = [&](const Posture& q) { return arm.position_determinant(q); };
+    if (std::fabs(determinant(point())) < 1e-12) continue;
+    const Model robot = parse_model({arm.text(), "arm.cuik"});
+    std::vector<symbolic::Component> parts;
+    for (const symbolic::SetPart& part : symbolic::set_parts(robot.mechanism, SingularitySet::boundary))
+      if (const symbolic::Component* component = component_of(part)) parts.push_back(*component);
+    if (parts.empty()) {
+      ++with_multipliers;
+      continue;
+    }
+    ++arms;
+    for (const symbolic::Component& part : parts)
+      for (int trial = 0; trial < 5; ++trial)
+        if (const auto at = zero([&](const auto& q) { return value_of(part, q); })) {
+          ++on_parts;
+          EXPECT_LT(std::fabs(determinant(*at)), kZero) << part.name;
+        }
+    for (int trial = 0; trial < 10; ++trial)
+      if (const auto at = zero(determinant)) {
+        ++on_determinants;
+        double least = 1;
+        for (const symbolic::Component& part : parts) least = std::min(least, std::fabs(value_of(part, *at)));
+        EXPECT_LT(least, 1e-4);
+      }
+    if (HasFailure()) break;
+  }
+  std::cout << arms << " arms, " << with_multipliers << " with multipliers\n";
+  EXPECT_EQ(with_multipliers, 0);
+  EXPECT_GT(arms, 3);
+  EXPECT_GT(on_parts, arms);
+  EXPECT_GT(on_determinants, arms);
 }
 
 // Joints 1 and 6 move the robot as a whole, and its hand: no condition is about them. Of the others one or two are locked.

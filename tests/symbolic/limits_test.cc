@@ -131,5 +131,52 @@ TEST(BoundaryParts, AreSystemsOfTheExpectedDimension) {
   }
 }
 
+// "name", "name with λ" …
+std::vector<std::string> parts_of_boundary(const Mechanism& m) {
+  std::vector<std::string> names;
+  for (const SetPart& part : set_parts(m, SingularitySet::boundary)) {
+    const auto& limits = std::get<BoundaryPart>(part);
+    names.push_back(text(part) + (limits.has_multipliers ? " with λ" : ""));
+    const SetEquations equations(m, SingularitySet::boundary, part);
+    const System system = equations.compiled(equations.scales());
+    EXPECT_EQ(system.passage->multipliers.empty(), !limits.has_multipliers && system.passage->equations > 0) << names.back();
+  }
+  return names;
+}
+
+TEST(BoundaryParts, AreWithoutMultipliersWhereTheyHaveAnEquationOrNeedNone) {
+  using testing::ElementsAre;
+  const std::string limits = "t : [0, pi]\n";
+  Mechanism m = parse_model(rod(limits), "m.cuik");
+  EXPECT_THAT(parts_of_boundary(m), ElementsAre("no limit: sin(t) = 0", "t at its lower limit", "t at its upper limit"))
+      << "cos(s) = 0 is beyond the range of s";
+  m.replace_outputs({"y"});
+  EXPECT_THAT(parts_of_boundary(m),
+              ElementsAre("no limit with λ", "t at its lower limit with λ", "t at its upper limit with λ"))
+      << "redundant: two limits at once would need none";
+}
+
+TEST(BoundaryParts, HoldWhatHasOneValueWhereTheOutputsAreFreeWithoutIt) {
+  // Three joints in a row, the first two of length 1, the third of length 1/2.
+  const auto arm = [](const std::string& range, const std::string& outputs) {
+    return parse_model("[SYSTEM VARS]\nx :\ny :\na ~\nb ~\nc ~ " + range +
+                           "\n[SYSTEM EQS]\nx = cos(a) + cos(b) + cos(c)/2;\ny = sin(a) + sin(b) + sin(c)/2;\n"
+                           "[INPUTS] a\n[OUTPUTS] " +
+                           outputs + "\n[LIMITS]\na : [0, 1]\n",
+                       "arm.cuik");
+  };
+  const std::size_t moving = boundary_parts(arm("[-pi, pi]", "x, y")).size();
+  EXPECT_EQ(moving, 3u);
+  const Mechanism held = arm("[1/2, 1/2]", "x, y");
+  for (const BoundaryPart& part : boundary_parts(held)) {
+    const KernelQuestion kernel = boundary_kernel(held, part);
+    EXPECT_THAT(kernel.matrix.columns, testing::Not(testing::Contains("c"))) << part.text();
+    EXPECT_EQ(kernel.matrix.columns.size(), part.active.empty() ? 2u : 1u);
+  }
+  const Mechanism cut = arm("[1/2, 1/2]", "x, y, b");
+  EXPECT_THAT(boundary_kernel(cut, boundary_parts(cut).front()).matrix.columns, testing::Contains("c"))
+      << "else two joints would have to move three outputs";
+}
+
 }  // namespace
 }  // namespace corank::symbolic
