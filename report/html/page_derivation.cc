@@ -67,21 +67,31 @@ std::string relations_html(const std::string& text) {
   return fmt::format("{}", fmt::join(formulas, ", "));
 }
 
+std::string part_html(const result::Result& part, const symbolic::SetDefinition& set) {
+  const std::string name = symbolic::html_text(part.part);
+  if (!part.condition.empty())
+    return fmt::format("<li>{}<span class=\"source\">{}</span></li>", relations_html(part.condition),
+                       part.part == part.condition ? "" : name);
+  if (set.of_requirements || (set.of_parts && part.options.kernel.empty())) return "<li>" + name + "</li>";
+  return "<li>" + name + (set.of_parts ? ": with multipliers" : ": singular, with a kernel vector of its own") + "</li>";
+}
+
 std::string union_html(const SetView& view) {
   std::string list;
+  std::size_t empty = 0;  // of hundreds of choices of limits most are
   for (const result::Result& part : view.result.parts) {
-    const std::string name = symbolic::html_text(part.part);
-    list += view.set->of_requirements ? "<li>" + name + "</li>"
-            : part.condition.empty()  ? "<li>" + name + ": singular, with a kernel vector of its own</li>"
-                                      : fmt::format("<li>{}<span class=\"source\">{}</span></li>",
-                                                    relations_html(part.condition), part.part == part.condition ? "" : name);
+    const bool shown = !view.set->of_parts || !part.cover.boxes.empty();
+    if (shown) list += part_html(part, *view.set);
+    empty += !shown;
   }
+  if (empty > 0) list += fmt::format("<li>{} without a solution</li>", result::counted(empty, "part"));
   return fmt::format(
-      "<details><summary>{}: the union of {}</summary><p>The assembly constraints and one of these {}:</p><div "
+      "<details><summary>{}: the union of {}</summary><p>The assembly constraints and one of these{}:</p><div "
       "class=\"scroll\"><ol class=\"equations\">{}</ol></div></details>",
       view.words.title, result::counted(view.result.parts.size(), "part"),
-      view.set->of_requirements ? "requirements at its limit"
-                                : "equations, in which the determinant of the block above factors",
+      view.set->of_requirements ? " requirements at its limit"
+      : view.set->of_parts      ? ", within the limits"
+                                : " equations, in which the determinant of the block above factors",
       list);
 }
 
@@ -110,7 +120,7 @@ std::string derivation_html(const symbolic::Mechanism& mechanism, const symbolic
       "<h3>Systems solved</h3><p>In the search, the cosine c and the sine s of an angle are variables of their own, with "
       "the equation c² + s² = 1.</p>";
   for (const SetView& view : views)
-    html += view.result.parts.empty() || view.set->of_parts
+    html += view.result.parts.empty()
                 ? system_html(result::equations_of(mechanism, view.set->set.value(), view.result.options), view)
                 : union_html(view);
   return html;

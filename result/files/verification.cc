@@ -57,7 +57,8 @@ std::vector<std::string> misplaced_decimals(const Result& result) {
 
 bool is_about(const symbolic::SetPart& part, const Result& result) {
   const auto* limits = std::get_if<symbolic::BoundaryPart>(&part);
-  return is_named(part, result.part) && (!limits || limits->has_multipliers != result.options.kernel.empty());
+  return is_named(part, result.part) &&
+         (!limits || limits->of_output || limits->has_multipliers != result.options.kernel.empty());
 }
 
 // The parts that these results are about, all or some of a set's. Of a boundary either those of today, or as older programs
@@ -73,11 +74,16 @@ std::vector<symbolic::SetPart> parts_of(const symbolic::Mechanism& mechanism, sy
   return {former.begin(), former.end()};
 }
 
+System compiled(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const symbolic::SetPart& part,
+                const Result& result) {
+  return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
+}
+
 // Of a part, or of what all parts have in common.
 System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
   if (result.part.empty()) return symbolic::configurations(mechanism);
   for (const symbolic::SetPart& part : parts_of(mechanism, set, std::span(&result, 1)))
-    if (is_about(part, result)) return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
+    if (is_about(part, result)) return compiled(mechanism, set, part, result);
   throw ResultFileError("the result's model has no part '" + result.part + "'");
 }
 
@@ -144,12 +150,14 @@ std::vector<std::string> contradictions(const Result& result, const System& syst
 }
 
 // Where a result contradicts its parts or is not made of those that its model has; nothing where it is no set of parts.
-std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result) {
+// `expected`: those.
+std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& model, const Result& result,
+                                                 std::vector<symbolic::SetPart>& expected) {
   const bool is_boundary = symbolic::definition(result.set).of_parts;
   if (!is_boundary && result.parts.empty()) return {};
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
-  const std::vector<symbolic::SetPart> expected = parts_of(model, *set, result.parts);
+  expected = parts_of(model, *set, result.parts);
   const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(), is_about);
   if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};
   std::vector<std::string> list;
@@ -158,8 +166,9 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
     if (is_boundary && part.outputs != model.outputs())
       list.push_back("(part: " + part.part + ") the outputs are not those of the model");
     if (part.set != result.set) return {"a part is of another set"};
-    const System system = symbolic::SetEquations(model, *set, expected[i]).compiled(part.options.kernel_scales);
-    const std::vector<std::string> free = free_coordinates(model, system, true, joints(expected[i]));
+    if (part.free_coordinates.empty()) continue;
+    const std::vector<std::string> free =
+        free_coordinates(model, compiled(model, *set, expected[i], part), true, joints(expected[i]));
     for (const std::string& name : part.free_coordinates)
       if (std::ranges::find(free, name) == free.end())
         list.push_back(fmt::format("(part: {}) {} is not free", part.part, name));
@@ -168,11 +177,11 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
   return list;
 }
 
-// Of the parts with a condition in place of the set's kernel vector. Of a boundary they are together the part without limits.
-void sample_parts(const symbolic::Mechanism& model, const Result& result, const std::vector<System>& systems,
-                  const check::Options& options, Verification& verification) {
+// Of the parts with a condition in place of the set's kernel vector; those of a boundary are together the part without
+// limits.
+void sample_parts(const symbolic::Mechanism& model, const Result& result, const std::vector<symbolic::SetPart>& all,
+                  const std::vector<System>& systems, const check::Options& options, Verification& verification) {
   const auto set = *symbolic::singularity_set_from_string(result.set);
-  const std::vector<symbolic::SetPart> all = parts_of(model, set, result.parts);
   std::vector<check::PartOfSet> parts;
   for (std::size_t i = 0; i < systems.size(); ++i)
     if (component_of(all[i]) != nullptr)
@@ -196,11 +205,15 @@ Verification verify_parts(const Result& result, Verification verification, const
   const symbolic::Mechanism model = model_of(result);
   if (!model.toleranced().empty())
     verification.contradictions.emplace_back("it has parts, which are one robot's, but the model has tolerances");
-  for (std::string& c : contradictions_of_parts(model, result)) verification.contradictions.push_back(std::move(c));
+  std::vector<symbolic::SetPart> expected;
+  for (std::string& c : contradictions_of_parts(model, result, expected))
+    verification.contradictions.push_back(std::move(c));
+  const auto set = symbolic::singularity_set_from_string(result.set);
   std::vector<System> systems;
   for (std::size_t i = 0; verification.contradictions.empty() && i < result.parts.size(); ++i) {
     const Result& part = result.parts[i];
-    const System& system = systems.emplace_back(system_of(model, part));
+    System& system = systems.emplace_back(compiled(model, *set, expected[i], part));
+    system.coefficient_tolerance = part.options.tolerance;
     for (const std::string& c : contradictions(part, system))
       verification.contradictions.push_back("(part: " + part.part + ") " + c);
     if (verification.contradictions.empty())
@@ -208,7 +221,7 @@ Verification verify_parts(const Result& result, Verification verification, const
     if (verification.report.interrupted) break;
   }
   if (verification.contradictions.empty() && !verification.report.interrupted)
-    sample_parts(model, result, systems, options, verification);
+    sample_parts(model, result, expected, systems, options, verification);
   return verification;
 }
 
@@ -251,8 +264,6 @@ Verification verify_set(const Result& result, const System& system, const check:
 
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
                                            const RunOptions& options) {
-  if (symbolic::definition(set).of_parts)
-    return symbolic::SetEquations(mechanism, set, symbolic::set_parts(mechanism, set).front()).system(options.kernel_scales);
   symbolic::SetEquations equations(mechanism, set, symbolic::kernel_side_from_string(options.kernel));
   if (options.passive_rates_eliminated) equations.eliminate_passive_rates();
   return equations.system(options.kernel_scales, options.corank);
@@ -300,7 +311,8 @@ ReadResult read_to_show(const std::filesystem::path& path) {
   symbolic::Mechanism model = model_of(result);
   System system = system_of(model, result);
   std::vector<std::string> wrong = contradictions(result, system);
-  for (std::string& c : contradictions_of_parts(model, result)) wrong.push_back(std::move(c));
+  std::vector<symbolic::SetPart> parts;
+  for (std::string& c : contradictions_of_parts(model, result, parts)) wrong.push_back(std::move(c));
   if (!wrong.empty())
     throw ResultFileError(fmt::format("{}: contradicts the model in it: {}", path.string(), fmt::join(wrong, "; ")));
   describe_in_words(model, system, result);

@@ -29,8 +29,7 @@ struct Verification {
   bool complete() const { return contradictions.empty() && report.complete(); }
 };
 
-/// The equations of a set as the options of a result say: its kernel's side, scales, corank, passive rates. Of a set of
-/// parts those of the first.
+/// The equations of a set as the options of a result say: its kernel's side, scales, corank, passive rates.
 symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model, symbolic::SingularitySet set,
                                            const RunOptions& options);
 /// The system that a result's model and options give; of one that consists of parts symbolic::configurations(). Throws

@@ -185,7 +185,9 @@ std::shared_ptr<const SecondOrder> second_order(const Outline& o) {
   using Asked = std::pair<TrigonometricSystem, std::vector<std::string>>;
   static Remembered<Asked, std::shared_ptr<const SecondOrder>> remembered(2);
   const auto alike = [](const Asked& a, const Asked& b) { return are_alike(a.first, b.first) && a.second == b.second; };
-  return remembered.of({plain_system(o.mechanism), o.mechanism.outputs()}, alike,
+  std::vector<std::string> names = o.velocity.matrix.columns;  // which of them are held says which equations there are
+  names.insert(names.end(), o.mechanism.outputs().begin(), o.mechanism.outputs().end());
+  return remembered.of({plain_system(o.mechanism), std::move(names)}, alike,
                        [&o](const Asked& asked) { return found_second_order(o, asked.first); });
 }
 
@@ -225,7 +227,7 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
   for (std::size_t size = 0; size <= std::min(most, others.size()); ++size) add_choices(others, 0, size, chosen, parts);
   for (const Limit& limit : of_outputs)
     for (const bool upper : {false, true})
-      parts.push_back({{{limit.coordinate, upper ? limit.upper : limit.lower, upper}}, true});
+      parts.push_back({{{limit.coordinate, upper ? limit.upper : limit.lower, upper}}, true, false});
   return parts;
 }
 

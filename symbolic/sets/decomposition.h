@@ -1,13 +1,14 @@
-// A set as a union: its matrix M, square or wide with columns that turn out to be zero, is brought to block triangular form by exact row operations, and is singular
-// exactly where one of the diagonal blocks is; a small block where a factor of its determinant vanishes. Each of these is a
-// part of the set, with an equation of its own and no kernel vector. So the parts have none of the strata that the whole
-// system has where two of them meet: a circle of kernel vectors over each configuration.
+// A set as a union: its matrix M, square or wide with columns that turn out to be zero, is brought to block triangular form
+// by exact row operations. It is singular exactly where one of the diagonal blocks is; a small block where a factor of its
+// determinant vanishes. Each of these is a part of the set, with an equation of its own and no kernel vector. So the parts
+// have none of the strata that the whole system has where two of them meet: a circle of kernel vectors over each
+// configuration.
 //
 // Theorem (doc/theory.md, "Parts of a set"): M(q) has not the rank of its rows exactly where a part's condition holds; of a
-// square M that is ker M(q) ≠ 0. Columns of zeros do not count. Rows are eliminated by
-// entries that are rational numbers ≠ 0 and by the rotations of passive_rates.h, which leave det M as it is but for a factor
-// ≠ 0; entries left of and below the blocks are identically zero, so that det M = ± Π det B_i; factors over the rational
-// numbers, and what cos² + sin² = 1 makes of them, have the zeros of their product.
+// square M that is ker M(q) ≠ 0. Columns of zeros do not count. Rows are eliminated by entries that are rational numbers ≠ 0
+// and by the rotations of passive_rates.h, which leave det M as it is but for a factor ≠ 0; entries left of and below the
+// blocks are identically zero, so that det M = ± Π det B_i; factors over the rational numbers, and what cos² + sin² = 1
+// makes of them, have the zeros of their product.
 #pragma once
 
 #include <memory>
@@ -47,10 +48,9 @@ struct Component {
 };
 
 /// The parts of the set of a kernel_question(), in the order of M's rows, of a block the shortest condition first. One: the
-/// set is no union. None: M does not become square, or vanishes everywhere, or is singular nowhere for a reason that its factors
-/// show, or the factors are not found in time (RationalPolynomial::factors) or before `ended`. Factors that are proven to
-/// have no zero in the search domain are left out. Angles fixed at multiples of π/2 are replaced by
-/// their value.
+/// set is no union. None: M does not become square, or vanishes everywhere, or is singular nowhere for a reason that its
+/// factors show, or the factors are not found in time (RationalPolynomial::factors) or before `ended`. Factors that are
+/// proven to have no zero in the search domain are left out. Angles fixed at multiples of π/2 are replaced by their value.
 /// Of an arm M is written in the joints before it is decomposed (ExactMatrix::put_into_free_coordinates).
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended = {});
 

@@ -167,7 +167,7 @@ SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, SetPa
     : mechanism_(definition(set).of_parts ? mechanism.without_rates() : mechanism), set_(set), part_(std::move(part)) {
   const auto* limits = std::get_if<BoundaryPart>(&*part_);
   const Component* component = component_of(*part_);
-  if (limits && !limits->of_output && limits->has_multipliers) {
+  if (limits && limits->has_multipliers) {
     kernel_.emplace(boundary_kernel(mechanism_, *limits));
   } else if (const auto* requirement = std::get_if<RequirementPart>(&*part_)) {
     kernel_.emplace(kernel_question(mechanism_, *requirement));

@@ -1,6 +1,6 @@
-// A matrix of expressions as polynomials over the rational numbers, and what leaves its zeros as they are: rows eliminated by
-// entries that are numbers, the block triangular form of the rest, determinants of its blocks. A square one, or a wide one
-// whose columns beyond that become zero: where has it not the rank of its rows?
+// A matrix of expressions as polynomials over the rational numbers, and what leaves its zeros as they are: rows eliminated
+// by entries that are numbers, the block triangular form of the rest, determinants of its blocks. It is square, or wide with
+// columns that become zero, and the question where it has not the rank of its rows.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ class ExactMatrix {
  public:
   enum class Shape { square, wide };
   /// Coordinates, constants, sines, cosines and irrational numbers are the unknowns. Holds GiNaC's lock while it lives.
-  /// `phi`: Φ, for in_free_coordinates(). Throws ModelError where M does not have that shape, or an entry is no polynomial in
-  /// coordinates, sines and cosines.
+  /// `phi`: Φ, for in_free_coordinates(). Throws ModelError where M does not have that shape, or an entry is no polynomial
+  /// in coordinates, sines and cosines.
   ExactMatrix(const Mechanism& mechanism, const ExpressionMatrix& matrix, const std::vector<Expression>& phi = {},
               Shape shape = Shape::square);
   ~ExactMatrix();

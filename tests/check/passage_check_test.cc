@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "corank/tests/planted_passage.h"
+#include "corank/tests/system_builder.h"
 
 namespace corank::check {
 namespace {
@@ -68,6 +69,33 @@ TEST(PassageCheck, NeedsAKernelOfOneDimension) {
     for (Polynomial& f : p.system.passage->jacobian) f.monomials.clear();
     EXPECT_FALSE(holds(p, 1e-8, Passage::barrier, p.side()));
   }
+}
+
+// λ = (1, x) where Φ_z = (x, −1)ᵀ, and the only number of the form is x − 1/2.
+TEST(PassageCheck, IsAboutEveryMultiplierOfTheBox) {
+  test::SystemBuilder s;
+  s.variable("x", "-9", "9");
+  System system = s.system();
+  const auto sum = [](const std::vector<std::pair<const char*, int>>& terms) {
+    Polynomial f;
+    for (const auto& [coefficient, variable] : terms)
+      f.monomials.emplace_back(ExactNumber::rational(coefficient), std::vector<Factor>{{variable, 1}});
+    return f;
+  };
+  PassageForm& form = system.passage.emplace();
+  form.equations = 2, form.columns = 1;
+  form.jacobian = {sum({{"1", 0}}), test::SystemBuilder::polynomial({{"-1", {}}})};
+  form.hessian.resize(1);
+  form.slack = {sum({{"-1/2", 1}, {"1", 2}})};
+  form.normal = {sum({{"1", 1}})};
+  const PassageCheck check(system);
+  CoverBox box;
+  box.passage = Passage::barrier;
+  box.side = {-1};
+  box.box = {Interval(0.9, 1.1)};
+  EXPECT_EQ(check.fault(box), "");
+  box.box = {Interval(0, 2)};
+  EXPECT_NE(check.fault(box), "");
 }
 
 }  // namespace

@@ -422,8 +422,8 @@ result::Result surface_of(const study::Model& model, const std::optional<double>
   return study::answer(about_boundary(model.mechanism), options);
 }
 
-// A Gough platform in one orientation, its legs' lengths limited: with a leg at its limit the output moves to one side of the
-// sphere on which the platform's joint is.
+// A Gough platform in one orientation, its legs' lengths limited: with a leg at its limit the output moves to one side of
+// the sphere on which the platform's joint is.
 TEST(WorkspaceBoundary, OfAPlatformInOneOrientationIsThatOfItsLegs) {
   const std::string text = R"([CONSTANTS]
 r := 3/5
