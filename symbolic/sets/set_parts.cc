@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "corank/symbolic/algebra/remembered.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/free_fold.h"
 #include "corank/symbolic/sets/kernel_scale.h"
@@ -139,7 +140,7 @@ std::vector<BoundaryPart> without_multipliers(const Mechanism& mechanism, Bounda
   return result;
 }
 
-std::vector<SetPart> simplified_boundary(const Mechanism& mechanism, const Ended& ended) {
+std::vector<SetPart> found_boundary(const Mechanism& mechanism, const Ended& ended) {
   std::vector<SetPart> result;
   const Mechanism configurations = mechanism.without_rates();
   for (BoundaryPart& part : boundary_parts(mechanism))
@@ -148,12 +149,25 @@ std::vector<SetPart> simplified_boundary(const Mechanism& mechanism, const Ended
   return result;
 }
 
+// To cut and to check a result asks for all parts again with each of them.
+std::vector<SetPart> boundary(const Mechanism& mechanism, const Ended& ended) {
+  if (ended) return found_boundary(mechanism, ended);
+  using Asked = std::pair<TrigonometricSystem, std::vector<std::string>>;
+  static Remembered<Asked, std::vector<SetPart>> remembered(2);
+  std::vector<std::string> words{mechanism.name()};
+  for (const Coordinate& c : mechanism.coordinates()) words.emplace_back(to_string(role_of(mechanism, c.name)));
+  for (const Limit& limit : mechanism.limits()) words.push_back(limit.coordinate + limit.text());
+  const auto alike = [](const Asked& x, const Asked& y) { return are_alike(x.first, y.first) && x.second == y.second; };
+  return remembered.of({plain_system(mechanism), std::move(words)}, alike,
+                       [&](const Asked&) { return found_boundary(mechanism, {}); });
+}
+
 }  // namespace
 
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended,
                                const std::optional<FreeCoordinates>* free) {
   const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
-  if (definition(set).of_parts) return simplified_boundary(mechanism, ended);
+  if (definition(set).of_parts) return boundary(mechanism, ended);
   if (definition(set).of_requirements) return as_parts(requirement_parts(mechanism));
   return as_parts(components(mechanism, kernel_question(mechanism, set), ended, free));
 }
