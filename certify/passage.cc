@@ -259,7 +259,7 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
     // Motions that leave the output where it is, as a wrist's, have 0.
     double largest = 0;
     for (std::size_t i = 0; i < form_->hessian.size(); ++i)
-      largest = std::max(largest, value(form_->equations * form_->columns + static_cast<int>(i), middle_box).mag());
+      largest = std::max(largest, value(hessian(0, 0) + static_cast<int>(i), middle_box).mag());
     for (const double x : values) {
       if (std::fabs(x) > kNoise * largest)
         count(x);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "corank/core/cover.h"
@@ -146,5 +147,26 @@ class PassagePlanter {
 
   std::mt19937 random_;
 };
+
+/// In x alone: λ = (1, x), since Φ_z = (x, −1)ᵀ, and the only number of the form is x − 1/2; n = 1.
+inline System system_with_multipliers_to_find() {
+  System system;
+  system.variables.emplace_back("x", VariableKind::length, -9, 9);
+  const auto sum = [](const std::vector<std::pair<const char*, int>>& terms) {
+    Polynomial f;
+    for (const auto& [coefficient, variable] : terms)
+      f.monomials.emplace_back(ExactNumber::rational(coefficient), std::vector<Factor>{{variable, 1}});
+    return f;
+  };
+  Polynomial minus_one;
+  minus_one.monomials.emplace_back(-1, std::vector<Factor>{});
+  PassageForm& form = system.passage.emplace();
+  form.equations = 2, form.columns = 1;
+  form.jacobian = {sum({{"1", 0}}), minus_one};
+  form.hessian.resize(1);
+  form.slack = {sum({{"-1/2", 1}, {"1", 2}})};
+  form.normal = {sum({{"1", 1}})};
+  return system;
+}
 
 }  // namespace corank::test

@@ -134,7 +134,7 @@ struct SecondOrder {
   }
 };
 
-// Nothing where they are none: sines of lengths.
+// Nothing where a derivative is no polynomial, since it holds a sine of a length.
 std::shared_ptr<const SecondOrder> found_second_order(const Outline& o, TrigonometricSystem system) {
   SecondOrder result;
   for (const Coordinate& c : o.mechanism.coordinates())

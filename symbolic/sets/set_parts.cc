@@ -243,13 +243,9 @@ void SetEquations::add_condition(const Component& part, TrigonometricSystem& sys
 System SetEquations::compiled(const std::vector<std::string>& scales) const {
   const TrigonometricSystem equations = system(scales);
   System compiled = algebrize(equations);
-  compiled.passage = passage(equations, compiled);
+  if (const auto* limits = part_ ? std::get_if<BoundaryPart>(&*part_) : nullptr)
+    compiled.passage = passage_form(mechanism_, *limits, equations, compiled);
   return compiled;
-}
-
-std::optional<PassageForm> SetEquations::passage(const TrigonometricSystem& equations, const System& compiled) const {
-  const auto* limits = part_ ? std::get_if<BoundaryPart>(&*part_) : nullptr;
-  return limits ? passage_form(mechanism_, *limits, equations, compiled) : std::nullopt;
 }
 
 }  // namespace corank::symbolic

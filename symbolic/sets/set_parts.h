@@ -53,8 +53,6 @@ class SetEquations {
   TrigonometricSystem system(const std::vector<std::string>& scales, int corank = 1) const;
   /// algebrize() of system(), of a boundary's part with its passage form.
   System compiled(const std::vector<std::string>& scales) const;
-  /// passage_form(); nothing of another set's part.
-  std::optional<PassageForm> passage(const TrigonometricSystem& equations, const System& compiled) const;
 
  private:
   void set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const;

@@ -138,25 +138,9 @@ TEST(PassageOfABoundary, NeedsARegularN) {
   EXPECT_EQ(entries.of(Interval(1.0), Interval(0.0), Interval(-1, 2)), Passage::unproven) << "x may be 0";
 }
 
-// λ = (1, x) where Φ_z = (x, −1)ᵀ, and the only number of the form is x − 1/2.
 TEST(PassageOfABoundary, IsProvenForEveryMultiplierOfTheBox) {
-  test::SystemBuilder s;
-  s.variable("x", "-9", "9");
-  System system = s.system();
-  const auto sum = [](const std::vector<std::pair<const char*, int>>& terms) {
-    Polynomial f;
-    for (const auto& [coefficient, variable] : terms)
-      f.monomials.emplace_back(ExactNumber::rational(coefficient), std::vector<Factor>{{variable, 1}});
-    return f;
-  };
-  PassageForm& form = system.passage.emplace();
-  form.equations = 2, form.columns = 1;
-  form.jacobian = {sum({{"1", 0}}), test::SystemBuilder::polynomial({{"-1", {}}})};
-  form.hessian.resize(1);
-  form.slack = {sum({{"-1/2", 1}, {"1", 2}})};
-  form.normal = {sum({{"1", 1}})};
   const UpwardRounding rounding;
-  const PassageTest test(system);
+  const PassageTest test(test::system_with_multipliers_to_find());
   EXPECT_EQ(test.of({Interval(0.9, 1.1)}).passage, Passage::barrier);
   EXPECT_EQ(test.of({Interval(0, 2)}).passage, Passage::unproven);
 }

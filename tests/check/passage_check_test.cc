@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "corank/tests/planted_passage.h"
-#include "corank/tests/system_builder.h"
 
 namespace corank::check {
 namespace {
@@ -71,24 +70,8 @@ TEST(PassageCheck, NeedsAKernelOfOneDimension) {
   }
 }
 
-// λ = (1, x) where Φ_z = (x, −1)ᵀ, and the only number of the form is x − 1/2.
 TEST(PassageCheck, IsAboutEveryMultiplierOfTheBox) {
-  test::SystemBuilder s;
-  s.variable("x", "-9", "9");
-  System system = s.system();
-  const auto sum = [](const std::vector<std::pair<const char*, int>>& terms) {
-    Polynomial f;
-    for (const auto& [coefficient, variable] : terms)
-      f.monomials.emplace_back(ExactNumber::rational(coefficient), std::vector<Factor>{{variable, 1}});
-    return f;
-  };
-  PassageForm& form = system.passage.emplace();
-  form.equations = 2, form.columns = 1;
-  form.jacobian = {sum({{"1", 0}}), test::SystemBuilder::polynomial({{"-1", {}}})};
-  form.hessian.resize(1);
-  form.slack = {sum({{"-1/2", 1}, {"1", 2}})};
-  form.normal = {sum({{"1", 1}})};
-  const PassageCheck check(system);
+  const PassageCheck check(test::system_with_multipliers_to_find());
   CoverBox box;
   box.passage = Passage::barrier;
   box.side = {-1};

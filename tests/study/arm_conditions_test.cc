@@ -108,9 +108,31 @@ std::optional<Posture> zero_between(Posture from, Posture to, const Function& f)
   return from;
 }
 
+/// Postures on parts and on a determinant that these parts are meant to be.
+struct Drawn {
+  int on_parts = 0, on_determinants = 0;
+
+  void compare(const std::vector<symbolic::Component>& parts, const auto& determinant, const auto& zero) {
+    constexpr double kZero = 1e-7;
+    for (const symbolic::Component& part : parts)
+      for (int trial = 0; trial < 5; ++trial)
+        if (const auto at = zero([&](const auto& q) { return value_of(part, q); })) {
+          ++on_parts;
+          EXPECT_LT(std::fabs(determinant(*at)), kZero) << part.name;
+        }
+    for (int trial = 0; trial < 10; ++trial)
+      if (const auto at = zero(determinant)) {
+        ++on_determinants;
+        double least = 1;
+        for (const symbolic::Component& part : parts) least = std::min(least, std::fabs(value_of(part, *at)));
+        EXPECT_LT(least, 1e-4);  // of a factor that is there twice the square root
+      }
+  }
+};
+
 TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
-  constexpr double kZero = 1e-7;
-  int arms = 0, on_parts = 0, on_determinants = 0, with_vectors = 0;
+  int arms = 0, with_vectors = 0;
+  Drawn drawn;
   for (unsigned seed = 1; seed <= test::seeds(10); ++seed) {
     SCOPED_TRACE(seed);
     const RandomArm arm(seed);
@@ -137,31 +159,19 @@ TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
       continue;
     }
     ++arms;
-    for (const symbolic::Component& part : parts)
-      for (int trial = 0; trial < 5; ++trial)
-        if (const auto at = zero([&](const auto& q) { return value_of(part, q); })) {
-          ++on_parts;
-          EXPECT_LT(std::fabs(determinant(*at)), kZero) << part.name;
-        }
-    for (int trial = 0; trial < 10; ++trial)
-      if (const auto at = zero(determinant)) {
-        ++on_determinants;
-        double least = 1;
-        for (const symbolic::Component& part : parts) least = std::min(least, std::fabs(value_of(part, *at)));
-        EXPECT_LT(least, 1e-4);  // of a factor that is there twice the square root
-      }
+    drawn.compare(parts, determinant, zero);
     if (HasFailure()) break;
   }
   std::cout << arms << " arms, " << with_vectors << " with kernel vectors\n";
   EXPECT_EQ(with_vectors, 0);
-  EXPECT_GT(on_parts, 2 * arms);
-  EXPECT_GT(on_determinants, 2 * arms);
+  EXPECT_GT(drawn.on_parts, 2 * arms);
+  EXPECT_GT(drawn.on_determinants, 2 * arms);
 }
 
 // Of a position by six joints, which three of them make.
 TEST(SetPartsOf, BoundariesOfRandomArmsWithAWristAreConditionsOnThreeJoints) {
-  constexpr double kZero = 1e-7;
-  int arms = 0, on_parts = 0, on_determinants = 0, with_multipliers = 0;
+  int arms = 0, with_multipliers = 0;
+  Drawn drawn;
   for (unsigned seed = 1; seed <= test::seeds(12); ++seed) {
     SCOPED_TRACE(seed);
     RandomArm arm(seed);
@@ -184,26 +194,14 @@ TEST(SetPartsOf, BoundariesOfRandomArmsWithAWristAreConditionsOnThreeJoints) {
       continue;
     }
     ++arms;
-    for (const symbolic::Component& part : parts)
-      for (int trial = 0; trial < 5; ++trial)
-        if (const auto at = zero([&](const auto& q) { return value_of(part, q); })) {
-          ++on_parts;
-          EXPECT_LT(std::fabs(determinant(*at)), kZero) << part.name;
-        }
-    for (int trial = 0; trial < 10; ++trial)
-      if (const auto at = zero(determinant)) {
-        ++on_determinants;
-        double least = 1;
-        for (const symbolic::Component& part : parts) least = std::min(least, std::fabs(value_of(part, *at)));
-        EXPECT_LT(least, 1e-4);
-      }
+    drawn.compare(parts, determinant, zero);
     if (HasFailure()) break;
   }
   std::cout << arms << " arms, " << with_multipliers << " with multipliers\n";
   EXPECT_EQ(with_multipliers, 0);
   EXPECT_GT(arms, 3);
-  EXPECT_GT(on_parts, arms);
-  EXPECT_GT(on_determinants, arms);
+  EXPECT_GT(drawn.on_parts, arms);
+  EXPECT_GT(drawn.on_determinants, arms);
 }
 
 // Joints 1 and 6 move the robot as a whole, and its hand: no condition is about them. Of the others one or two are locked.
