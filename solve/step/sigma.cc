@@ -23,12 +23,12 @@ double share_of_size(int dimension, double tolerance, std::size_t variables) {
 // The nearest of 20 numbers a decade (ISO 3, R20, to two digits): what the user reads is what was used, and hulls that
 // differ by rounding, as in another unit, nearly always give the same.
 double preferred_number(double x) {
-  constexpr std::array kSeries{1.0, 1.1, 1.25, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 2.8,
-                               3.2, 3.6, 4.0,  4.5, 5.0, 5.6, 6.3, 7.1, 8.0, 9.0};
+  constexpr std::array<double, 21> kSeries{10, 11, 12.5, 14, 16, 18, 20, 22, 25, 28, 32,
+                                           36, 40, 45,   50, 56, 63, 71, 80, 90, 100};
   const double decade = std::floor(std::log10(x));
-  const auto step = std::lround(20 * (std::log10(x) - decade));
-  const double power = std::pow(10.0, decade);
-  return step < 20 ? kSeries[step] * power : 10 * power;
+  const double number = kSeries[std::lround(20 * (std::log10(x) - decade))];
+  // A power of ten in its exact size, so that the decimal number comes out.
+  return decade < 1 ? number / std::pow(10.0, 1 - decade) : number * std::pow(10.0, decade - 1);
 }
 
 }  // namespace

@@ -8,11 +8,11 @@
 namespace corank::solve {
 namespace {
 
-// Of lengths in [0, 1], the set's hull.
-double default_of(int variables, int dimension) {
+// Of a set whose hull has these sides, all of them lengths.
+double default_of(int variables, int dimension, double size = 1) {
   System system;
   for (int j = 0; j < variables; ++j) system.variables.emplace_back("x" + std::to_string(j), VariableKind::length, 0, 1);
-  return default_sigma(system, system.domain(), dimension).length;
+  return default_sigma(system, Box(variables, Interval(0, size)), dimension).length;
 }
 
 TEST(DefaultSigma, IsCoarserForLargerSets) {
@@ -21,6 +21,11 @@ TEST(DefaultSigma, IsCoarserForLargerSets) {
   EXPECT_EQ(default_of(10, 2), 0.016);
   EXPECT_EQ(default_of(10, 3), 0.05);
   EXPECT_EQ(default_of(10, 4), 0.1);
+}
+
+TEST(DefaultSigma, IsADecimalOfTwoOrThreeDigits) {
+  for (const double sigma : {0.071, 0.0036, 0.14, 0.00125, 7.1, 560.0, 1.1e5, 7.1e-9})
+    EXPECT_EQ(default_of(10, 3, 20 * sigma), sigma) << "as it is written";
 }
 
 TEST(DefaultSigma, OfSurfacesIsCoarserWhereBoxesHaveManySides) {
