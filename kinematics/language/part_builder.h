@@ -237,6 +237,7 @@ class PartBuilder : public symbolic::ModelBuilder {
   void resolve_couplings();
   const Expression& dh_cell(const std::string& column) const;
   void read_dh_variable(DhRow& row, bool& slides, int& sense) const;
+  void note_dh_degrees(const std::string& column, const symbolic::Expression& angle);
   void ask_for_what_dh_leaves_open();
   void resolve_outputs();
 

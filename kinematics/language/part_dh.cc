@@ -1,5 +1,6 @@
 // Rows of Denavit and Hartenberg in the parts language: each is a link, and the joint that carries it.
 #include <algorithm>
+#include <string>
 
 #include "corank/kinematics/language/part_builder.h"
 #include "corank/kinematics/robot/vectors.h"
@@ -119,11 +120,25 @@ void PartBuilder::read_dh_variable(DhRow& row, bool& slides, int& sense) const {
   cell = rest;
 }
 
+/// A number of several turns, in radians, was hardly meant.
+void PartBuilder::note_dh_degrees(const std::string& column, const Expression& angle) {
+  constexpr double kMostRadians = 7;
+  Expression number = angle.kind() == Expression::Kind::negation ? angle.operands()[0] : angle;
+  for (const symbolic::Constant& constant : robot.constants)
+    if (number.kind() == Expression::Kind::symbol && number.name() == constant.name) number = constant.value;
+  if (number.kind() == Expression::Kind::negation) number = number.operands()[0];
+  if (number.kind() != Expression::Kind::number || !(std::stod(number.name()) > kMostRadians)) return;
+  robot.notices.push_back("line " + std::to_string(dh.row_where.line) + ": " + column + " = " + angle.text() +
+                          " is in radians; write degrees as " + number.name() + "deg");
+}
+
 void PartBuilder::finish_dh_row() {
   DhRow row{dh_cell("a"), dh_cell("alpha"), dh_cell("d"), dh_cell("theta")};
   bool slides = false;
   int sense = 1;
   read_dh_variable(row, slides, sense);
+  note_dh_degrees("alpha", row.alpha);
+  note_dh_degrees("theta", row.theta);
   if (draft.kind == "fix" && draft.actuated)
     throw ModelError(draft.where, "the row is actuated, but there is no joint's name in theta or d",
                      "theta = q1, for instance");

@@ -179,6 +179,15 @@ TEST(DenavitHartenberg, FaultsSayWhereAndWhatWasExpected) {
   }
 }
 
+TEST(DenavitHartenberg, DegreesWithoutDegAreNoted) {
+  const auto notices = [](const std::string& rows) {
+    return parse_parts("[CONSTANTS]\ntwist := 90\nhalf := pi\n[DH]\nstandard\na alpha d theta\n" + rows, "r.cuik").notices;
+  };
+  EXPECT_THAT(notices("0 -90 0 q1\n1 0 0 q2\n"), ElementsAre("line 7: alpha = -90 is in radians; write degrees as 90deg"));
+  EXPECT_THAT(notices("0 twist 0 q1-45\n"), ElementsAre(HasSubstr("alpha = twist is"), HasSubstr("theta = -45 is")));
+  EXPECT_THAT(notices("0 -90deg 0 q1+half\n100 -pi/2 300 q2-1.5708\n0 6.28 d3 0\n"), testing::IsEmpty());
+}
+
 TEST(DenavitHartenberg, ASectionAloneIsARobot) {
   EXPECT_TRUE(has_parts("% an arm\n[DH]\nstandard\n"));
   EXPECT_FALSE(has_parts("[SYSTEM VARS]\nDH : [0, 1]\n"));
