@@ -62,7 +62,7 @@ void Problem::add_domain(int variable, const std::optional<Terms>& value, int si
   if (value && !holds) {
     const auto affine = value->affine();
     const auto direction = affine && value->is_exact() ? affine->a.sign() : std::nullopt;
-    if (direction && affine->a.is_rational() && *direction != 0) {
+    if (direction && *direction != 0) {
       const ExactNumber own = (end - affine->c) / affine->a;
       const bool is_lower = sign * *direction < 0;
       holds = implied_.holds(affine->variable, own, sign * *direction);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <ranges>
 #include <utility>
 
 #include "corank/core/rounding.h"
@@ -24,6 +25,7 @@ struct Outline {
   Mechanism mechanism;  // without a velocity equation of its own
   VelocityEquation velocity;
   std::vector<Expression> phi;
+  std::vector<std::size_t> equations{};  // which of the mechanism's equations phi are
   long mobility = 0;
   long dependencies = 0,
        free = 0;  // outputs less dependencies are free: below 0 where more rows are those than there are outputs
@@ -46,6 +48,7 @@ void leave_out_held(Outline& o) {
     m.rows.erase(m.rows.begin() + at);
     o.velocity.where.erase(o.velocity.where.begin() + at);
     o.phi.erase(o.phi.begin() + at);
+    o.equations.erase(o.equations.begin() + at);
   }
 }
 
@@ -71,6 +74,7 @@ Outline outline(const Mechanism& mechanism) {
   Derivation derivation = derive(o.mechanism);
   o.velocity = std::move(derivation.velocity);
   o.phi = std::move(derivation.phi);
+  for (std::size_t row = 0; row < o.phi.size(); ++row) o.equations.push_back(row);
   count(o);
   Outline held = o;
   leave_out_held(held);
@@ -106,6 +110,12 @@ KernelQuestion question(const Outline& o, const BoundaryPart& part) {
   const SetDefinition& set = definition(SingularitySet::boundary);
   KernelQuestion kernel{set, set.matrix, o.velocity.without(set.locked), o.velocity.where, KernelSide::left, {}, {}};
   kernel.drop(o.velocity.dependencies(set.locked));
+  std::vector<std::size_t> multiplied = o.equations, dropped;
+  for (const std::size_t row : kernel.dropped | std::views::reverse)
+    multiplied.erase(multiplied.begin() + static_cast<std::ptrdiff_t>(row));
+  for (std::size_t row = 0; row < o.mechanism.equations().size(); ++row)
+    if (!std::ranges::binary_search(multiplied, row)) dropped.push_back(row);
+  kernel.dropped = std::move(dropped);
   ExpressionMatrix& m = kernel.matrix;
   for (const Active& active : part.active) {
     const auto at = std::ranges::find(m.columns, active.coordinate) - m.columns.begin();

@@ -64,7 +64,7 @@ struct KernelQuestion {
   ExpressionMatrix matrix;            ///< M: L without the locked columns and the dropped rows
   std::vector<SourceLocation> where;  ///< of its rows
   KernelSide side;
-  std::vector<std::size_t> dropped;    ///< of a left kernel: the rows of L that are dependencies, and not in M
+  std::vector<std::size_t> dropped;    ///< of a left kernel: the rows of L that are not in M
   PassiveRates passive{};              ///< of M, where they are eliminated
   std::vector<KernelQuestion> also{};  ///< one more, where the set asks for two kernels
   /// Of a set of requirements' limits: whose rates the kernel vector is (requirements.h).

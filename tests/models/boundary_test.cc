@@ -519,6 +519,28 @@ double sampled_area(double reach, int n, const std::function<bool(const Vector2d
   return inside * step * step;
 }
 
+// An arm of a turning and a sliding joint whose base is given by lengths of one value, with an equation in these alone.
+TEST(WorkspaceBoundary, LeavesOutEquationsInHeldCoordinates) {
+  const result::Result result = study::answer(
+      {.model = symbolic::parse_model("[SYSTEM VARS]\nx : [-9, 9]\ny : [-9, 9]\nc : [3/5, 3/5]\ns : [4/5, 4/5]\nr : [0, 9]\n"
+                                      "t ~\n[SYSTEM EQS]\nc^2 + s^2 = 1;\nx = r*cos(t) + c;\ny = r*sin(t) + s;\n"
+                                      "[OUTPUTS] x, y\n[LIMITS]\nr : [1, 2]\n",
+                                      "base.cuik"),
+       .set = symbolic::SingularitySet::boundary});
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_EQ(result.cover.count(Verdict::undecided), 0u);
+  EXPECT_TRUE(result::verify(result).verified());
+  for (const double r : {1.0, 2.0})
+    for (double t = -3; t < 3.1; t += 0.1) {
+      const double x = r * std::cos(t) + 0.6, y = r * std::sin(t) + 0.8;
+      const auto holds = [&](const CoverBox& b) {
+        return b.box[0].lo() <= x && x <= b.box[0].hi() && b.box[1].lo() <= y && y <= b.box[1].hi() &&
+               b.passage == Passage::barrier;
+      };
+      EXPECT_TRUE(std::ranges::any_of(result.cover.boxes, holds)) << r << " " << t;
+    }
+}
+
 TEST(WorkspaceArea, IsBetweenItsBounds) {
   const symbolic::Mechanism arm = symbolic::read_model(CORANK_SOURCE_DIR "/models/planar/arm_2r_limits.cuik");
   const double sampled = sampled_area(2, 800, [](const Vector2d& p) {

@@ -63,6 +63,22 @@ TEST(Answer, OfARangeThatAnAffineFunctionHasIsVerifiedUpToItsEnds) {
   EXPECT_FALSE(result::verify(result).verified());
 }
 
+// The end of the range is an irrational value of the sine, which no double is.
+TEST(Answer, OfARangeThatAnIrrationalMultipleHasIsVerifiedUpToItsEnds) {
+  for (const std::string slope : {"sqrt(2)/3", "-sqrt(3)/3", "sin(2*pi/9)"})
+    for (const double sigma : {0.05, solve::kWhole}) {
+      Options options;
+      options.search.sigma = sigma;
+      const result::Result result =
+          answer({symbolic::parse_model(
+                     "[SYSTEM VARS]\nz : [-1/8, 1/2]\nt ~\n[SYSTEM EQS]\nz = 1/9 + " + slope + "*sin(t);\n", "height.cuik")},
+                 options);
+      EXPECT_TRUE(result.cover.complete());
+      EXPECT_GT(result.cover.count(Verdict::regular), 0u);
+      EXPECT_TRUE(result::verify(result).verified()) << slope << " " << sigma;
+    }
+}
+
 TEST(Answer, RemembersTheConstantsThatWerePutIn) {
   Question question{.model = three_slider(), .set = SingularitySet::inverse, .constants = {{"L2", "1"}}};
   result::put_in(question.constants, question.model);
