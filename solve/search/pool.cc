@@ -14,7 +14,8 @@ namespace corank::solve {
 Pool::Pool(const Prepared& prepared, Tally& tally, ShardNumber last_shard, const Problem* like)
     : prepared_(prepared),
       tally_(tally),
-      problem_(like ? *like : problem_with_strata(prepared, {})),
+      // What was found before may lie on strata: then they are all there, however late it is.
+      problem_(like ? *like : problem_with_strata(prepared, [&] { return last_shard == 0 && tally.ended(); })),
       numbers_(last_shard),
       workers_([this] {
         tally_.keep_thread();

@@ -55,7 +55,7 @@ std::vector<Stratum> find_strata(const Problem& problem, const System& system) {
   std::mt19937 random(1);
   const Box domain = system.domain();
   int failures = 0;
-  for (int start = 0, met = 0; start < kStarts && (start < kFirstStarts || met > 0); ++start) {
+  for (int start = 0, met = 0; start < kStarts && (start < kFirstStarts || met > 0) && !problem.over(); ++start) {
     const auto sample = degenerate_sample(problem, domain, random);
     if (!sample) continue;
     ++met;
@@ -77,8 +77,9 @@ Problem problem_with_strata(const Prepared& prepared, std::function<bool()> ende
   Problem problem(prepared.system, prepared.reduction, std::move(ended));
   const certify::CompiledSystem& system = problem.compiled;
   const bool exact = prepared.reduction.consistent && !problem.tolerant && system.parameters().empty();
-  problem.parts_of_sheets = exact && prepared.options.leaves_whole() && problem.has_surfaces();
-  if (problem.parts_of_sheets) problem.heuristics.sheet_spread = 0;  // it need not stay inside
+  problem.parts_of_sheets = exact && prepared.options.allows_parts() && problem.has_surfaces();
+  if (problem.parts_of_sheets && prepared.options.leaves_whole())
+    problem.heuristics.sheet_spread = 0;  // it need not stay inside
   const bool any_set = system.equations() > 0 && system.unknowns() > system.equations();
   if (exact && any_set && prepared.options.roots.empty()) problem.strata = find_strata(problem, prepared.reduction.system);
   return problem;
