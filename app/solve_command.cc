@@ -42,7 +42,7 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
   add_option(sub, "--sigma S|inf", command.sigma,
              "Largest edge of a box, in lengths and in the sines and cosines of angles; inf: do not cut the sheets, the\n"
              "proven pieces of the set; default: 1/200 of the size of a curve; none for a surface and for more\n"
-             "dimensions, whose boxes may then hold parts of sheets. Pictures cut boxes themselves");
+             "dimensions. Boxes of these may hold parts of sheets, except with inf. Pictures cut boxes themselves");
   add_option(sub, "--sigma-length S|inf", command.sigma_length, "The same for lengths only, in the model's unit");
   add_option(sub, "--sigma-angle S|inf", command.sigma_angle, "The same for the sines and cosines of angles only");
   add_option(sub, "--tolerance REL", command.tolerance,
@@ -81,8 +81,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
              "holds the model and the question; you may give limits, --threads, -o, --json and --digits anew");
   add_option(sub, "--refine RESULT.h5", command.refine_path,
              "Cut the sheets of this result to --sigma, by default 1/60 of the size of a surface, 1/20 for three\n"
-             "dimensions, coarser for more or with over 20 variables. Boxes with parts of sheets are searched again\n"
-             "first. A proof of completeness (--proof) stays in RESULT.h5");
+             "dimensions, coarser for more or with over 20 variables. Wider boxes with parts of sheets are searched\n"
+             "again. A proof of completeness (--proof) stays in RESULT.h5");
   sub.add_flag("--estimate", command.estimate,
                "Only predict boxes, time, memory and the size of the file, from a trial of a few seconds");
   command.json.add(sub, "the summary");

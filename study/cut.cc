@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "corank/core/box.h"
 #include "corank/result/files/hdf5_file.h"
 #include "corank/result/files/verification.h"
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/tallies.h"
 #include "corank/solve/search/box_labels.h"
 #include "corank/solve/search/recut.h"
+#include "corank/solve/step/sigma.h"
 #include "corank/symbolic/model/set_definition.h"
 
 namespace corank::study {
@@ -24,13 +26,25 @@ bool left_whole(const solve::Control& control, result::Result& result) {
   return true;
 }
 
-enum class Labels { none, anew };
+// The options, with the default of a σ that is not asked for: boxes that are no wider then need no search.
+solve::Options with_sigma(solve::Options options, const System& system, const Cover& cover) {
+  Box hull;
+  for (const CoverBox& box : cover.boxes) {
+    include(hull, box.box);
+    if (hull.empty()) hull = box.box;
+  }
+  const Sigma sigma = solve::default_sigma(system, hull.empty() ? system.domain() : hull, cover.dimension);
+  options.sigma_length = options.asked_length().value_or(sigma.length * options.coarser);
+  options.sigma_angle = options.asked_angle().value_or(sigma.angle * options.coarser);
+  options.surfaces_whole = true;
+  return options;
+}
 
 // Of a result without parts, or a part.
-void cut_one(const symbolic::Mechanism& model, const solve::Options& options, Labels labels, solve::Control& control,
-             result::Result& result) {
+void cut_one(const symbolic::Mechanism& model, solve::Options options, solve::Control& control, result::Result& result) {
   if (left_whole(control, result)) return;
   const System system = result::system_of(model, result);
+  if (result::parts_of_sheets(result) > 0) options = with_sigma(std::move(options), system, result.cover);
   const solve::Prepared prepared = solve::prepare(system, options, control);
   if (left_whole(control, result)) return;  // the reduction was perhaps given up, and is not the cover's
   const auto blocks = result::blocks_of(result);
@@ -41,34 +55,21 @@ void cut_one(const symbolic::Mechanism& model, const solve::Options& options, La
   } catch (const std::invalid_argument& error) {
     throw result::ResultFileError(std::string("its boxes cannot be cut: ") + error.what());
   }
-  if (labels == Labels::anew) {
-    solve::bound_kernel_dimensions(prepared, cover, control);
-    solve::prove_passages(prepared, cover, control);
-    if (blocks) solve::label_types(prepared, {*blocks, symbolic::definition(result.set).type}, cover, control);
-    cover.types.left_out += types.left_out;
-  } else {
-    cover.types = types;
-  }
+  solve::bound_kernel_dimensions(prepared, cover, control);
+  solve::prove_passages(prepared, cover, control);
+  if (blocks) solve::label_types(prepared, {*blocks, symbolic::definition(result.set).type}, cover, control);
+  cover.types.left_out += types.left_out;
   if (const auto ending = control.ending()) result.stopped = to_string(*ending);
   result.options.sigma = cover.sigma;
   result::describe_in_words(model, system, result);
 }
 
-void cut_all(const solve::Options& options, Labels labels, solve::Control& control, result::Result& result) {
+void cut_all(const solve::Options& options, solve::Control& control, result::Result& result) {
   const symbolic::Mechanism model = result::model_of(result);
-  if (result.parts.empty()) return cut_one(model, options, labels, control, result);
-  for (result::Result& part : result.parts) cut_one(model, options, labels, control, part);
+  if (result.parts.empty()) return cut_one(model, options, control, result);
+  for (result::Result& part : result.parts) cut_one(model, options, control, part);
   result::merge_parts(result);
   result::describe_in_words(model, result::system_of(model, result), result);
-}
-
-// Searches boxes with parts of sheets for whole ones, which get no labels. Nothing: the control has ended the run before.
-std::optional<result::Result> with_sheets(result::Result result, solve::Options options, solve::Control& control) {
-  options.sigma_length.reset();
-  options.sigma_angle.reset();
-  options.sigma = solve::kWhole;
-  cut_all(options, Labels::none, control, result);
-  return control.ending() ? std::nullopt : std::optional(std::move(result));
 }
 
 }  // namespace
@@ -87,9 +88,7 @@ result::Result cut(result::Result result, const solve::Options& options, solve::
         "the search itself depends on sigma here, since coefficients have a tolerance; expected a new search");
   const solve::InStage stage(control, solve::Stage::search);  // of all parts: what is cut was found before
   result.search.clear();
-  if (result::parts_of_sheets(result) > 0)
-    if (auto sheets = with_sheets(result, options, control)) result = *std::move(sheets);
-  cut_all(options, Labels::anew, control, result);
+  cut_all(options, control, result);
   return result;
 }
 
@@ -109,15 +108,10 @@ result::Result cut_for_page(const result::Result& whole, solve::Options options,
     attempt(control);
     return control.ending();
   };
-  std::optional<result::Result> found;  // once, not for every σ
-  if (result::parts_of_sheets(whole) > 0 &&
-      tried([&](solve::Control& control) { found = with_sheets(whole, options, control); }))
-    return whole;
-  const result::Result& sheets = found ? *found : whole;
   for (int tries = 0; tries < kTries && (tries == 0 || !all.ended()); ++tries, options.coarser *= kCoarser) {
     result::Result result;
     const std::optional<solve::Ending> ending =
-        tried([&](solve::Control& control) { result = cut(sheets, options, control); });
+        tried([&](solve::Control& control) { result = cut(whole, options, control); });
     const bool fits = !ending && (most == 0 || result.cover.boxes.size() <= most);
     if (fits || (ending && ending->by == solve::Limit::interrupt)) return result;
   }

@@ -383,15 +383,14 @@ class Result:
         progress: ProgressOption = None,
     ) -> "Result":
         """Returns the same set in narrower boxes: each sheet, a proven piece of the set, is cut, and what it is cut into
-        inherits its proof. Boxes with parts of sheets are searched for whole ones first. The proof of completeness stays
-        with this result.
+        inherits its proof. Wider boxes with parts of sheets are searched again. The proof of completeness stays with this
+        result.
 
         Args:
             sigma: the largest edge of a box; None: a share of the size of the set.
             sigma_length, sigma_angle: the same for lengths, and for sines and cosines.
             threads: the number of threads; 0: one for each core.
-            time_limit: in seconds; 0: no limit. Boxes that are not cut by then are pending; while whole sheets are still
-                being searched, none is cut.
+            time_limit: in seconds; 0: no limit. Boxes that are not cut by then are pending.
 
         Raises:
             ResultFileError: if the coefficients have a tolerance, so that the search itself depends on sigma.

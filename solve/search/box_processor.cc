@@ -27,7 +27,7 @@ certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
   dependent_ = preconditioners_.chart_of_last(problem_.compiled.scales(), kChartGain);
   const auto& p = pivots == dependent_ ? preconditioners_.last() : preconditioners_.at_midpoint(x, &dependent_);
   if (p.rank() < problem_.compiled.equations()) return {};
-  if (problem_.parts_of_sheets) return certify::newton_prove(problem_.compiled, p, x, workspace_, kProofStepsBeforeParts);
+  if (problem_.may_be_part(x)) return certify::newton_prove(problem_.compiled, p, x, workspace_, kProofStepsBeforeParts);
   return certify::newton_prove(problem_.compiled, p, x, workspace_);
 }
 
@@ -60,7 +60,7 @@ bool BoxProcessor::certify(std::span<Interval> x, Proof proof) {
   const auto start = std::chrono::steady_clock::now();
   ++shard_.statistics.proofs_tried;
   certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
-  if (!sheet.proven && proof == Proof::full && problem_.parts_of_sheets) sheet = prove_in_part(x);
+  if (!sheet.proven && proof == Proof::full && problem_.may_be_part(x)) sheet = prove_in_part(x);
   if (sheet.proven) {
     if (recorder_) {
       recorder_->newton(preconditioners_.last(), x);

@@ -85,6 +85,7 @@ Work next_pass(const Prepared& prepared, const Work& pass, std::vector<Postponed
 }
 
 Sigma sigma_of_search(const Prepared& prepared, const Problem& problem) {
+  if (problem.parts_of_sheets && prepared.options.leaves_whole()) return {kWhole, kWhole};
   const bool any_dimension = problem.tolerant && prepared.system.equations.size() > prepared.system.variables.size();
   return chosen_sigma(prepared, prepared.system.domain(), any_dimension ? 1 : prepared.reduction.system.dimension());
 }

@@ -25,6 +25,10 @@ class StateOfCover {
         all_rows_(reduction_.system.equations.size()) {
     for (std::size_t row = 0; row < all_rows_.size(); ++row) all_rows_[row] = static_cast<int>(row);
     for (std::size_t k = 0; k < reduction_.kept.size(); ++k) place_[reduction_.kept[k]] = static_cast<int>(k);
+    if (const Options& options = prepared.options; options.allows_parts() && options.asked_length()) {
+      problem_.parts_of_sheets = true;
+      problem_.set_sigma({*options.asked_length(), *options.asked_angle()});
+    }
   }
 
   SearchState of(Cover cover) {
@@ -38,7 +42,7 @@ class StateOfCover {
     std::vector<Box> parts;  // of sheets
     for (CoverBox& box : cover.boxes) {
       const auto region = box.region >= 0 ? regions.at(box.region) : nullptr;
-      if (region && box.motion < 0 && !spans(cover, box)) {
+      if (region && box.motion < 0 && !spans(cover, box) && !problem_.may_be_part(lowered(box.box))) {
         parts.push_back(std::move(box.box));
         continue;
       }
@@ -99,14 +103,16 @@ class StateOfCover {
     sheet.equations = all_rows_;
     sheet.dependent = all_but(free, static_cast<int>(n));
     sheet.region.assign(region->begin(), region->begin() + static_cast<std::ptrdiff_t>(n));
-    for (const int j : free) sheet.region[j] = sides[j];
-    sheet.proven = sheet.dependent.size() == all_rows_.size() && contains(sheet.region, sides);
     sheet.image = std::move(sides);
+    const bool is_part = !sheet.spans_image();
+    if (!is_part)
+      for (const int j : free) sheet.region[j] = sheet.image[j];
+    sheet.proven = sheet.dependent.size() == all_rows_.size() && (is_part || contains(sheet.region, sheet.image));
     return sheet;
   }
 
   const certify::Reduction& reduction_;
-  const Problem problem_;
+  Problem problem_;
   certify::NewtonWorkspace workspace_;
   std::vector<int> all_rows_;
   std::map<int, int> place_;

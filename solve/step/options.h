@@ -1,6 +1,7 @@
 // What a search is asked for, as a plain value that says itself whether it makes sense.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -59,6 +60,11 @@ struct Options {
   std::optional<double> asked_length() const { return sigma_length ? sigma_length : sigma; }
   std::optional<double> asked_angle() const { return sigma_angle ? sigma_angle : sigma; }
   bool leaves_whole() const { return surfaces_whole && !asked_length() && !asked_angle(); }
+  /// May boxes of surfaces and larger sets hold parts of sheets? With σ those may that are no wider.
+  bool allows_parts() const {
+    return leaves_whole() ||
+           (surfaces_whole && asked_length() && asked_angle() && std::min(*asked_length(), *asked_angle()) < kWhole);
+  }
   /// Throws OptionError where a number is out of its range, whatever the system.
   void validate() const;
   /// The same, and where a σ is below smallest_sigma(system).

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "corank/core/rounding.h"
+#include "corank/solve/step/heuristics.h"
 #include "corank/solve/step/propagation.h"
 
 namespace corank::solve {
@@ -68,6 +69,14 @@ double Problem::excess(const Box& sides, const std::vector<double>& sigma) {
   double largest = 0;
   for (std::size_t j = 0; j < sides.size(); ++j) largest = std::max(largest, sides[j].width() / sigma[j]);
   return largest;
+}
+
+bool Problem::may_be_part(std::span<const Interval> x) const {
+  if (!parts_of_sheets) return false;
+  Box sides(x.begin(), x.begin() + compiled.variables());
+  if (excess(sides, sigma) > 1) return false;
+  append_values(sides);
+  return excess(sides, sigma) <= kCutMargin;  // the eliminated variables' sides get room, too
 }
 
 double Problem::relative_width(std::span<const Interval> x) const {

@@ -47,6 +47,10 @@ struct Problem {
   bool is_partial(const certify::Sheet& sheet) const {
     return subset || (sheet.motion < 0 && static_cast<int>(sheet.equations.size()) < compiled.equations());
   }
+  /// Has the run ended?
+  bool over() const { return ended && ended(); }
+  /// Is a part of a sheet in x as good as a whole sheet, since it would not be cut?
+  bool may_be_part(std::span<const Interval> x) const;
   /// Of these variables those that may be divided.
   std::vector<int> without_parameters(std::vector<int> variables) const;
   /// Appends the eliminated variables' sides over x to the n sides of x (what follows those is renewed).
@@ -66,8 +70,8 @@ struct Problem {
   double rank_tolerance;  ///< pivots below count as zero where equations may be redundant
   BranchingRule branching;
   Heuristics heuristics;
-  /// A box of which all is proven but that its sheet stays inside is done (certify::newton_prove_in_part): sheets are not
-  /// to be cut. Solids have a tenth of the boxes then, surfaces half of them.
+  /// A box no wider than σ of which all is proven but that its sheet stays inside is done (certify::newton_prove_in_part).
+  /// Where sheets are not to be cut solids have a tenth of the boxes then, surfaces half of them.
   bool parts_of_sheets = false;
   /// Of the kept variables, then of the eliminated ones: the σ that applies to it; infinite where none does (kernel vectors,
   /// auxiliaries).

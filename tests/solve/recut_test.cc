@@ -71,9 +71,10 @@ void expect_no_losses(const Options& options, int points, const std::function<Co
 }
 
 TEST(Recut, LosesNothingAndClaimsNothingFalse) {
-  expect_no_losses({.surfaces_whole = true}, 500, [](const System& system, const Cover& whole) {
+  expect_no_losses({.surfaces_whole = true}, 500, [parts = false](const System& system, const Cover& whole) mutable {
     EXPECT_TRUE(std::isinf(whole.sigma.length));
-    Cover cut = cut_to(system, whole, {.sigma = 0.1});
+    parts = !parts;  // in every second one
+    Cover cut = cut_to(system, whole, {.sigma = 0.1, .surfaces_whole = parts});
     EXPECT_TRUE(cut.complete());
     EXPECT_GT(cut.boxes.size(), 2 * whole.boxes.size());
     EXPECT_LE(test::widest_edge(cut, 4), 0.1);
@@ -100,18 +101,25 @@ int solutions(const Ellipsoid& e, const CoverBox& box, double u, double v) {
 }
 
 TEST(PartsOfSheets, HaveAtMostOneSolutionForEachValueAndOneForSome) {
-  std::size_t parts = 0, whole = 0;
+  std::size_t parts = 0, whole = 0, narrow_parts = 0;
   int some = 0, twice = 0, none = 0;
   for (unsigned seed = 1; seed <= test::seeds(10); ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     const Ellipsoid planted(random);
     const System system = planted.system();
-    const Cover cover = solve(system, {.surfaces_whole = true, .proof = true});
+    Options options{.surfaces_whole = true, .proof = true};
+    if (seed % 2 == 0) options.sigma = 0.3;
+    const Cover cover = solve(system, options);
+    EXPECT_LE(test::widest_edge(cover, 4), options.sigma.value_or(HUGE_VAL));
     EXPECT_TRUE(check::check(system, cover).complete());
     for (const CoverBox& box : cover.boxes) {
       const bool spans = corank::spans(cover, box);
-      ++(spans ? whole : parts);
+      if (options.sigma) {
+        narrow_parts += !spans;
+      } else {
+        ++(spans ? whole : parts);
+      }
       const Box& region = cover.regions[box.region];
       if (std::ranges::find(box.free, 3) != box.free.end()) continue;
       const auto value = [&](const Box& of, int k) {
@@ -138,6 +146,7 @@ TEST(PartsOfSheets, HaveAtMostOneSolutionForEachValueAndOneForSome) {
   EXPECT_EQ(none, 0);
   EXPECT_GT(some, 0);
   EXPECT_GT(parts, whole / 10);
+  EXPECT_GT(narrow_parts, 0u);
 }
 
 TEST(Recut, TakesTheDefaultOfSigmaFromTheSet) {

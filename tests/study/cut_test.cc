@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "corank/result/files/verification.h"
 #include "corank/result/values/summary.h"
 #include "corank/result/values/tallies.h"
 #include "corank/study/answer.h"
@@ -46,7 +47,7 @@ TEST(Cut, IsTheStageOfTheSearchInAllParts) {
   EXPECT_EQ(cut.stopped, "");
 }
 
-TEST(Cut, FindsWholeSheetsInBoxesWithPartsOfThem) {
+TEST(Cut, LeavesPartsOfSheetsThatAreNoWiderThanSigma) {
   const result::Result found = uncut(symbolic::SingularitySet::forward);
   const std::size_t parts = result::parts_of_sheets(found);
   EXPECT_GT(parts, 0u);
@@ -54,10 +55,44 @@ TEST(Cut, FindsWholeSheetsInBoxesWithPartsOfThem) {
       << "in the list of the whole set, too";
   EXPECT_THAT(to_table(found), testing::HasSubstr(std::to_string(parts) + " of these hold a part of a sheet"));
   solve::Control control;
-  const result::Result cut = study::cut(found, {.sigma = 0.5}, control);
-  EXPECT_TRUE(cut.cover.complete());
-  EXPECT_EQ(result::parts_of_sheets(cut), 0u);
-  EXPECT_EQ(result::parts_of_sheets(cut_for_page(found, {}, 20'000, {})), 0u);
+  for (const double sigma : {0.5, 0.1}) {
+    const result::Result cut = study::cut(found, {.sigma = sigma}, control);
+    EXPECT_TRUE(cut.cover.complete());
+    EXPECT_GT(result::parts_of_sheets(cut), 0u);
+    EXPECT_EQ(cut.cover.wider_than_sigma, 0u);
+    EXPECT_LE(cut.cover.count(Verdict::undecided), found.cover.count(Verdict::undecided));
+  }
+  const result::Result on_page = cut_for_page(found, {}, 20'000, {});
+  EXPECT_GT(on_page.cover.boxes.size(), found.cover.boxes.size());
+  EXPECT_LE(on_page.cover.boxes.size(), 20'000u);
+  const result::Result sheets = study::cut(found, {.sigma = solve::kWhole}, control);
+  EXPECT_TRUE(sheets.cover.complete());
+  EXPECT_EQ(result::parts_of_sheets(sheets), 0u);
+}
+
+// With a sigma the search ends with parts that would not be cut: no solution is lost, and each box is verified.
+TEST(Cut, ASearchWithSigmaEndsWithPartsOfSheetsToo) {
+  const Question question{.model = read_model(CORANK_SOURCE_DIR "/models/planar/3prr.cuik").mechanism,
+                          .set = symbolic::SingularitySet::forward};
+  solve::Options search{.sigma = 0.5, .surfaces_whole = true, .proof = true};
+  const result::Result found = answer(question, {.search = search});
+  search.sigma = 0.25;
+  const result::Result finer = answer(question, {.search = search});
+  EXPECT_TRUE(found.cover.complete());
+  EXPECT_GT(result::parts_of_sheets(found), 0u);
+  EXPECT_EQ(found.cover.wider_than_sigma, 0u);
+  EXPECT_TRUE(result::verify(found).verified());
+  // Every solution that another search is sure of is in a box.
+  for (std::size_t i = 0; i < finer.cover.boxes.size(); i += 37) {
+    const CoverBox& b = finer.cover.boxes[i];
+    if (!holds_a_solution(b)) continue;
+    const auto meets = [&](const CoverBox& other) {
+      for (std::size_t j = 0; j < b.box.size(); ++j)
+        if (!b.box[j].overlaps(other.box[j])) return false;
+      return true;
+    };
+    EXPECT_TRUE(std::ranges::any_of(found.cover.boxes, meets)) << i;
+  }
 }
 
 TEST(Cut, KeepsTheTypesThatWereAskedFor) {
