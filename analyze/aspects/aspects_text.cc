@@ -70,8 +70,11 @@ std::string area_words(const Aspects& a, std::size_t k) {
   return shared.empty() ? text : text + ", shares outputs with " + numbers;
 }
 
+bool is_counted(const Pieces& p) { return p.at_most || p.at_least > 0; }
+
 std::string bounds(const Pieces& p) {
   if (p.exact()) return std::to_string(p.at_least);
+  if (!is_counted(p)) return fmt::format("not counted ({})", p.reason);
   return p.at_most ? fmt::format("from {} to {} ({})", p.at_least, *p.at_most, p.reason)
                    : fmt::format("at least {} ({})", p.at_least, p.reason);
 }
@@ -127,6 +130,7 @@ result::PiecesFile to_file(const study::Question& question, const Aspects& a) {
 
 std::string summary(const Aspects& a) {
   const auto counted = [](const Pieces& p, const char* what) {
+    if (!is_counted(p)) return fmt::format("{} {}", result::noun(2, what), bounds(p));
     return bounds(p) + " " + result::noun(p.exact() && p.at_least == 1 ? 1 : 2, what);
   };
   return fmt::format("{}, {}, {}.{}", counted(a.aspects, "aspect"), counted(a.assembly_modes, "assembly mode"),
@@ -146,7 +150,11 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   for (const std::string& r : a.required) text += fmt::format("  required        {}\n", r);
   if (!a.limits.empty()) text += fmt::format("  strictly within {}\n", fmt::join(a.limits, ", "));
   const auto zeros = [](const std::vector<std::string>& factors) {
-    return factors.empty() ? "nowhere" : fmt::format("where {} = 0", fmt::join(factors, " = 0 or "));
+    constexpr std::size_t kMostCharacters = 400;
+    const auto equation = [](const std::string& f) {
+      return f.size() <= kMostCharacters ? f + " = 0" : fmt::format("a factor of {} characters (--json) is 0", f.size());
+    };
+    return factors.empty() ? "nowhere" : "where " + result::joined(factors, equation, " or ");
   };
   text += fmt::format("  det L_y = 0 {}\n  det L_z = 0 {}\n", zeros(a.forward_factors), zeros(a.inverse_factors));
   if (a.cusps) text += fmt::format("  cusps           {}\n", cusps_line(*a.cusps));
