@@ -183,6 +183,10 @@ int run(const std::string& name, const std::vector<std::string>& args) {
       "  4  of verify: every claim holds, but it is not proven that no solution is missing\n"
       "  5  of solve: it is proven that the robot cannot be assembled within its ranges\n\n"
       "Example:\n  corank solve models/three_slider.cuik --set forward");
+  const auto with_help = [&program](const std::string& fault) {
+    const std::vector<CLI::App*> named = program.get_subcommands();
+    return fmt::format("{}; corank {}--help tells more", fault, named.empty() ? "" : named[0]->get_name() + " ");
+  };
   Action action;
   for (const auto add :
        {add_derive, add_solve, add_verify, add_plot, add_report, add_sweep, add_map, add_clearance, add_tolerance,
@@ -196,8 +200,12 @@ int run(const std::string& name, const std::vector<std::string>& args) {
     return status;
   } catch (const CLI::Success& asked) {  // --help, --version
     return program.exit(asked);
+  } catch (const CLI::ExtrasError&) {
+    std::vector<std::string> unknown = program.remaining(true);
+    std::ranges::sort(unknown, {}, [&](const std::string& word) { return std::ranges::find(args, word) - args.begin(); });
+    return say(kUsage, with_help(fmt::format("not expected: {}", fmt::join(unknown, " "))));
   } catch (const CLI::ParseError& error) {
-    return say(kUsage, std::string(error.what()) + "; corank --help tells more");
+    return say(kUsage, with_help(error.what()));
   } catch (const UsageError& error) {
     return say(kUsage, error.what());
   } catch (const Stopped& stopped) {
@@ -205,7 +213,7 @@ int run(const std::string& name, const std::vector<std::string>& args) {
   } catch (const solve::OptionError& error) {
     std::string option = error.option();
     std::ranges::replace(option, '_', '-');
-    return say(kUsage, fmt::format("--{}: {}; corank --help tells more", option, error.reason()));
+    return say(kUsage, with_help(fmt::format("--{}: {}", option, error.reason())));
   } catch (const symbolic::ModelError& error) {
     return say(kBadInput, error.what());
   } catch (const result::ResultFileError& error) {

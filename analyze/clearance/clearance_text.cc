@@ -126,7 +126,8 @@ std::string to_table(const Clearance& c) {
   }
   if (c.ball.question.set && c.center == Clearance::Center::unknown)
     text += "  it is neither proven nor excluded that the robot has a configuration at the centre\n";
-  return text + fmt::format("{} boxes processed, {:.3f} s\n", n.statistics.processed, c.seconds) + stopped_line(c.stopped);
+  return text + fmt::format("{} processed, {:.3f} s\n", result::counted(n.statistics.processed, "box"), c.seconds) +
+         stopped_line(c.stopped);
 }
 
 std::string to_json(const Clearance& c) {
@@ -179,7 +180,7 @@ std::string to_table(const Best& b) {
     if (!b.nearest.empty()) text += fmt::format("  {} nearest to this centre, proven to exist:\n", what);
     text += value_lines(b.nearest);
   }
-  return text + fmt::format("{} cells, {} boxes processed, {:.3f} s\n", b.cells, b.processed, b.seconds) +
+  return text + fmt::format("{} cells, {} processed, {:.3f} s\n", b.cells, result::counted(b.processed, "box"), b.seconds) +
          stopped_line(b.stopped);
 }
 
@@ -216,7 +217,7 @@ std::string to_table(const ToleranceFactor& f) {
     text += factor_lines(f, "that does not keep it");
     if (!f.robot.empty()) text += "  its nearest configuration of the set:\n";
   }
-  return text + value_lines(f.nearest) + last_lines(f, fmt::format("{} boxes processed, ", f.processed));
+  return text + value_lines(f.nearest) + last_lines(f, fmt::format("{} processed, ", result::counted(f.processed, "box")));
 }
 
 std::string to_json(const ToleranceFactor& f) {

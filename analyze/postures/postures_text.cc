@@ -103,7 +103,7 @@ std::string to_table(const PostureFinder& finder, const Postures& postures) {
       text += fmt::format("    {} in [{:.9g}, {:.9g}]\n", v.name, v.value.lo(), v.value.hi());
   }
   if (!postures.stopped.empty()) text += fmt::format("  stopped by {}: there may be more\n", postures.stopped);
-  return text + fmt::format("{} boxes processed, {:.3f} s\n", postures.processed, postures.seconds);
+  return text + fmt::format("{} processed, {:.3f} s\n", result::counted(postures.processed, "box"), postures.seconds);
 }
 
 std::string to_json(const PostureFinder& finder, const Postures& postures) {

@@ -156,10 +156,12 @@ std::string passages_text(const Result& result) {
   if (result.outputs.empty()) return "";
   const auto counts = passages(result.cover);
   const std::array kinds{Passage::barrier, Passage::traversable, Passage::unproven};
-  return fmt::format("\nin the space of {}: {} boxes\n", fmt::join(result.outputs, ", "),
-                     joined(kinds, [&](Passage passage) {
-                       return fmt::format("{} in {}", to_string(passage), counts[static_cast<std::size_t>(passage)]);
-                     }));
+  return fmt::format("\nin the space of {}: {} {}\n", fmt::join(result.outputs, ", "),
+                     joined(kinds,
+                            [&](Passage passage) {
+                              return fmt::format("{} in {}", to_string(passage), counts[static_cast<std::size_t>(passage)]);
+                            }),
+                     noun(counts[static_cast<std::size_t>(Passage::unproven)], "box"));
 }
 
 // What of each part of a set was found.

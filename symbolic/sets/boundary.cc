@@ -84,7 +84,7 @@ Outline outline(const Mechanism& mechanism) {
     throw ModelError(where,
                      "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(o.free) +
                          " free output" + (o.free == 1 ? "" : "s") + " (" + listed(mechanism.outputs()) + ")",
-                     "at least one output, and at most as many as the mobility");
+                     "at least one output, and at most as many as the mobility, as --outputs NAME,NAME chooses them");
   return o;
 }
 

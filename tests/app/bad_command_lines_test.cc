@@ -111,8 +111,8 @@ TEST(BadCommandLines, ThatGiveNoNumberWhereOneIsExpectedAreRefused) {
 TEST(BadCommandLines, ThatNameNothingOrTooMuchAreRefused) {
   for (const Subcommand& sub : subcommands()) {
     const std::string& name = sub.base[0];
-    expect_refused({name, "--no-such-option"}, 2, "corank --help tells more");
-    expect_refused(with(sub.base, {"--no-such-option"}), 2, "--no-such-option");
+    expect_refused({name, "--no-such-option"}, 2, "corank " + name + " --help tells more");
+    expect_refused(with(sub.base, {"--no-such-option", "3"}), 2, "not expected: --no-such-option");
     expect_refused(with(sub.base, {"-D"}), 2, "-D");
     if (name == "verify") continue;
     Words without = sub.base;
