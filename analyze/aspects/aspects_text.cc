@@ -152,7 +152,7 @@ std::string to_text(const study::Question& question, const Aspects& a) {
   const auto zeros = [](const std::vector<std::string>& factors) {
     constexpr std::size_t kMostCharacters = 400;
     const auto equation = [](const std::string& f) {
-      return f.size() <= kMostCharacters ? f + " = 0" : fmt::format("a factor of {} characters (--json) is 0", f.size());
+      return f.size() <= kMostCharacters ? f + " = 0" : fmt::format("a factor of {} characters is 0", f.size());
     };
     return factors.empty() ? "nowhere" : "where " + result::joined(factors, equation, " or ");
   };

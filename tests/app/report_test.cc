@@ -126,14 +126,15 @@ TEST(Report, KeepsSheetsWholeInItsFilesAndCutsThemForThePage) {
   EXPECT_GT(said["boxes"]["regular"], whole.cover.boxes.size());
 }
 
-TEST(Report, SaysThatItShowsBoxesUncutWhereCutOnesAreTooMany) {
+TEST(Report, CutsBoxesWithPartsOfSheetsAsFinelyAsThePageAllows) {
   const TemporaryFolder folder;
   const Outcome outcome =
       run_corank({"report", model("planar/3prr"), "--sets", "cspace", "--max-found", "2000", "-o", folder.file("r")});
   EXPECT_EQ(outcome.status, 0);
-  EXPECT_THAT(outcome.err, HasSubstr("cspace: its boxes are shown uncut: cut ones are too many for the page"));
+  EXPECT_EQ(outcome.err, "");
   const std::string page = read_text(folder.file("r/index.html"));
-  EXPECT_THAT(page, HasSubstr(" boxes uncut, since cut ones are too many for the page, or take too long</p>"));
+  EXPECT_LE(json::parse(script_text(page, "model"))["sets"][0]["count"], 2000);
+  EXPECT_THAT(page, HasSubstr(" boxes, cut to σ</p>"));
   EXPECT_THAT(page, HasSubstr("or, where the box holds a part of a sheet, at most one</dd>"));
 }
 
