@@ -207,7 +207,9 @@ class Result:
 
     @property
     def passages(self) -> np.ndarray:
-        """For a workspace boundary: can the output pass? An array of n words: "barrier", "traversable" or "unproven"."""
+        """For a workspace boundary: can the output pass? An array of n words: "barrier", "traversable" or "unproven". Each is
+        about the solutions of the part that the box comes from; the parts have their own lists (``parts``).
+        """
         return np.array(_corank.passages)[self._arrays["passage"]]
 
     def __getitem__(self, name: str) -> np.ndarray:
