@@ -71,9 +71,12 @@ ExitStatus path(PathCommand command) {
   const analyze::Path found = finder.find(boxes[0], boxes[1], control);
   line.clear();
   if (!command.csv.empty()) result::write_text(command.csv, to_csv(finder, found));
-  if (!command.output.empty() && found.tube) result::write_path(command.output, analyze::to_file(finder, found));
-  if (!command.output.empty() && !found.tube)
-    fmt::print(stderr, "corank: {}: not written, since it would hold a path\n", result::printable(command.output));
+  if (!command.output.empty()) {
+    if (found.tube)
+      result::write_path(command.output, analyze::to_file(finder, found));
+    else
+      fmt::print(stderr, "corank: {}: not written, since it would hold a path\n", result::printable(command.output));
+  }
   if (!command.report.empty())
     write_path_page(command.report, question, report::path_view(finder, found), command.line(),
                     found.tube ? command.output : "", command.options.threads, control);

@@ -12,8 +12,8 @@
 #include "corank/result/values/sentences.h"
 #include "corank/result/values/tallies.h"
 #include "corank/solve/search/box_labels.h"
+#include "corank/solve/search/passes.h"
 #include "corank/solve/search/recut.h"
-#include "corank/solve/step/sigma.h"
 #include "corank/symbolic/model/set_definition.h"
 
 namespace corank::study {
@@ -33,9 +33,9 @@ solve::Options with_sigma(solve::Options options, const System& system, const Co
     include(hull, box.box);
     if (hull.empty()) hull = box.box;
   }
-  const Sigma sigma = solve::default_sigma(system, hull.empty() ? system.domain() : hull, cover.dimension);
-  options.sigma_length = options.asked_length().value_or(sigma.length * options.coarser);
-  options.sigma_angle = options.asked_angle().value_or(sigma.angle * options.coarser);
+  const Sigma sigma = solve::chosen_sigma(options, system, hull, cover.dimension);
+  options.sigma_length = sigma.length;
+  options.sigma_angle = sigma.angle;
   options.surfaces_whole = true;
   return options;
 }

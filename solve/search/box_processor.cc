@@ -17,7 +17,7 @@ BoxProcessor::BoxProcessor(const Problem& problem, Shard& shard)
       contractor_(problem.compiled, problem.heuristics, preconditioners_, workspace_, recorder_),
       slicer_(problem, preconditioners_, workspace_, recorder_) {}
 
-certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
+certify::Sheet BoxProcessor::prove(std::span<const Interval> x, int steps) {
   if (preconditioners_.at_midpoint(x).rank() < problem_.compiled.equations()) {
     dependent_ = preconditioners_.last().dependent;
     return {};
@@ -27,8 +27,7 @@ certify::Sheet BoxProcessor::prove(std::span<const Interval> x) {
   dependent_ = preconditioners_.chart_of_last(problem_.compiled.scales(), kChartGain);
   const auto& p = pivots == dependent_ ? preconditioners_.last() : preconditioners_.at_midpoint(x, &dependent_);
   if (p.rank() < problem_.compiled.equations()) return {};
-  if (problem_.may_be_part(x)) return certify::newton_prove(problem_.compiled, p, x, workspace_, kProofStepsBeforeParts);
-  return certify::newton_prove(problem_.compiled, p, x, workspace_);
+  return certify::newton_prove(problem_.compiled, p, x, workspace_, steps);
 }
 
 certify::Sheet BoxProcessor::prove_in_part(std::span<const Interval> x) {
@@ -59,8 +58,9 @@ certify::Sheet BoxProcessor::prove_partially(std::span<const Interval> x) {
 bool BoxProcessor::certify(std::span<Interval> x, Proof proof) {
   const auto start = std::chrono::steady_clock::now();
   ++shard_.statistics.proofs_tried;
-  certify::Sheet sheet = proof == Proof::full ? prove(x) : prove_partially(x);
-  if (!sheet.proven && proof == Proof::full && problem_.may_be_part(x)) sheet = prove_in_part(x);
+  const bool part = proof == Proof::full && problem_.may_be_part(x);
+  certify::Sheet sheet = proof == Proof::full ? prove(x, part ? kProofStepsBeforeParts : kProofSteps) : prove_partially(x);
+  if (!sheet.proven && part) sheet = prove_in_part(x);
   if (sheet.proven) {
     if (recorder_) {
       recorder_->newton(preconditioners_.last(), x);

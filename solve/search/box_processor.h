@@ -60,7 +60,7 @@ class BoxProcessor {
   // If a sheet over x can be proven, of all equations (full) or of an independent subset (partial), keeps it and returns
   // true.
   enum class Proof { full, partial };
-  certify::Sheet prove(std::span<const Interval> x);
+  certify::Sheet prove(std::span<const Interval> x, int steps);
   // The same for what a sheet leaves: after prove(x), by its preconditioner.
   certify::Sheet prove_in_part(std::span<const Interval> x);
   // Proves an independent subset and bounds the others over a box no narrower than σ: in a tiny box around a singular point

@@ -11,15 +11,6 @@
 namespace corank::solve {
 namespace {
 
-// The σ that is asked for, the others by default from the hull of a set.
-Sigma chosen_sigma(const Prepared& prepared, const Box& hull, int dimension) {
-  const Options& options = prepared.options;
-  const Sigma by_default = default_sigma(prepared.system, hull, dimension);
-  const auto coarser = [&](double sigma) { return dimension == 0 ? sigma : sigma * options.coarser; };
-  return {options.asked_length().value_or(coarser(by_default.length)),
-          options.asked_angle().value_or(coarser(by_default.angle))};
-}
-
 // The hull of the sheets, in all variables; the domain where there is none.
 Box hull_of(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards) {
   const UpwardRounding rounding;
@@ -47,6 +38,13 @@ int largest_dimension(const System& system, const std::vector<Shard*>& shards) {
 }
 
 }  // namespace
+
+Sigma chosen_sigma(const Options& options, const System& system, const Box& hull, int dimension) {
+  const Sigma by_default = default_sigma(system, hull, dimension);
+  const auto coarser = [&](double sigma) { return dimension == 0 ? sigma : sigma * options.coarser; };
+  return {options.asked_length().value_or(coarser(by_default.length)),
+          options.asked_angle().value_or(coarser(by_default.angle))};
+}
 
 Work first_pass(const Prepared& prepared) {
   if (!prepared.options.roots.empty()) return pass_over(prepared.reduction, prepared.options.roots);
@@ -87,14 +85,15 @@ Work next_pass(const Prepared& prepared, const Work& pass, std::vector<Postponed
 Sigma sigma_of_search(const Prepared& prepared, const Problem& problem) {
   if (problem.parts_of_sheets && prepared.options.leaves_whole()) return {kWhole, kWhole};
   const bool any_dimension = problem.tolerant && prepared.system.equations.size() > prepared.system.variables.size();
-  return chosen_sigma(prepared, prepared.system.domain(), any_dimension ? 1 : prepared.reduction.system.dimension());
+  return chosen_sigma(prepared.options, prepared.system, prepared.system.domain(),
+                      any_dimension ? 1 : prepared.reduction.system.dimension());
 }
 
 Sigma sigma_of_set(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards) {
   const Options& options = prepared.options;
   const int dimension = largest_dimension(prepared.reduction.system, shards);
   if (options.leaves_whole() && dimension > 1) return {kWhole, kWhole};
-  return chosen_sigma(prepared, hull_of(prepared, problem, shards), dimension);
+  return chosen_sigma(options, prepared.system, hull_of(prepared, problem, shards), dimension);
 }
 
 }  // namespace corank::solve

@@ -22,8 +22,10 @@ Work pass_over(const certify::Reduction& reduction, const std::vector<Box>& boxe
 Work next_pass(const Prepared& prepared, const Work& pass, std::vector<Postponed> postponed, Pool& pool,
                SelfMotions& motions);
 
+/// The σ that is asked for, by default from the hull of a set.
+Sigma chosen_sigma(const Options& options, const System& system, const Box& hull, int dimension);
 /// σ for the search: what the tolerance of coefficients moves is no reason for narrower boxes, and such systems are searched
-/// by σ.
+/// by σ. Infinite where boxes with parts of sheets are not to be cut.
 Sigma sigma_of_search(const Prepared& prepared, const Problem& problem);
 /// σ for the set that the shards' sheets make.
 Sigma sigma_of_set(const Prepared& prepared, const Problem& problem, const std::vector<Shard*>& shards);

@@ -104,10 +104,10 @@ class StateOfCover {
     sheet.dependent = all_but(free, static_cast<int>(n));
     sheet.region.assign(region->begin(), region->begin() + static_cast<std::ptrdiff_t>(n));
     sheet.image = std::move(sides);
-    const bool is_part = !sheet.spans_image();
-    if (!is_part)
-      for (const int j : free) sheet.region[j] = sheet.image[j];
-    sheet.proven = sheet.dependent.size() == all_rows_.size() && (is_part || contains(sheet.region, sheet.image));
+    sheet.proven = sheet.dependent.size() == all_rows_.size();
+    if (!sheet.spans_image()) return sheet;  // a part
+    for (const int j : free) sheet.region[j] = sheet.image[j];
+    sheet.proven = sheet.proven && contains(sheet.region, sheet.image);
     return sheet;
   }
 

@@ -49,7 +49,7 @@ inline constexpr double kChartGain = 1.05;   ///< of a proof's volume: an exchan
 inline constexpr int kMostExchanges = 16;
 /// Of ε-inflation, where what a proof leaves may be a part of a sheet, which takes less work. Two are too few where a side
 /// is as narrow as rounding: a set along which nothing is proven has no end. *
-inline constexpr int kProofStepsBeforeParts = 4;
+inline constexpr int kProofSteps = 8, kProofStepsBeforeParts = 4;
 /// Wider boxes that may leave the domain are divided, where sheets are not cut: of a `boundary` box no solution in the
 /// domain is known.
 inline constexpr double kAcrossShare = 1.0 / 2;

@@ -22,7 +22,7 @@ Problem::Problem(const System& system, const certify::Reduction& reduction, std:
       rank_tolerance(reduction.tolerant ? kRoundedRankTolerance : kRedundantRankTolerance),
       branching(reduction.system, 1, system.kernel_vectors),
       heuristics(heuristics_for(reduction.system, tolerant)),
-      ended(std::move(e)),
+      ended(e ? std::move(e) : [] { return false; }),
       classes_(sigma_classes(system, reduction)) {
   TypicalSizes sizes = typical_sizes(compiled, reduction.system.domain());
   compiled.set_scales(std::move(sizes.variables));

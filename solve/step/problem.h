@@ -47,8 +47,6 @@ struct Problem {
   bool is_partial(const certify::Sheet& sheet) const {
     return subset || (sheet.motion < 0 && static_cast<int>(sheet.equations.size()) < compiled.equations());
   }
-  /// Has the run ended?
-  bool over() const { return ended && ended(); }
   /// Is a part of a sheet in x as good as a whole sheet, since it would not be cut?
   bool may_be_part(std::span<const Interval> x) const;
   /// Of these variables those that may be divided.

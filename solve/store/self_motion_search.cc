@@ -59,7 +59,7 @@ std::vector<LocalSolution> walk(const Problem& problem, const LocalSolution& sta
   const std::size_t n = scales.size();
   std::vector<double> heading(n);
   for (double& h : heading) h = normal(random);
-  for (std::size_t trial = 0; trial < 4 * count && samples.size() < count && !problem.over(); ++trial) {
+  for (std::size_t trial = 0; trial < 4 * count && samples.size() < count && !problem.ended(); ++trial) {
     const LocalSolution& here = samples.back();
     const std::vector<double> basis = kernel_basis(problem, here, 100 * kSampleTolerance);
     const std::size_t k = basis.size() / n;

@@ -55,7 +55,7 @@ std::vector<Stratum> find_strata(const Problem& problem, const System& system) {
   std::mt19937 random(1);
   const Box domain = system.domain();
   int failures = 0;
-  for (int start = 0, met = 0; start < kStarts && (start < kFirstStarts || met > 0) && !problem.over(); ++start) {
+  for (int start = 0, met = 0; start < kStarts && (start < kFirstStarts || met > 0) && !problem.ended(); ++start) {
     const auto sample = degenerate_sample(problem, domain, random);
     if (!sample) continue;
     ++met;
