@@ -53,6 +53,9 @@ report::PictureSource read_source(const PlotCommand& command, const std::string&
   const result::Reading reading{.free = false,
                                 .sides = [&](const result::Result& r) { return shown_variables(r, command.picture.axes); }};
   result::Result& result = results.emplace_back(result::read_result(path, reading));
+  // Does a part lack sides for outputs? That is not read so, but such a result is small.
+  constexpr std::size_t kFewBoxes = 10'000;
+  if (result.cover.boxes.size() <= kFewBoxes) result = result::read_result(path);
   if (study::is_whole(result)) {
     run.enter("cutting the sheets");
     result = study::cut(result::read_result(path), {.threads = 0}, run.control());

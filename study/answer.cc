@@ -188,8 +188,8 @@ result::Result describe(const Question& question, const System& system, const Op
     result.outputs = question.model.outputs();
   result.options.passive_rates_eliminated = system.passive_rates_eliminated;
   describe_corank(system, result);
-  const symbolic::Component* component = question.part ? component_of(*question.part) : nullptr;
-  if (question.assembly && !(component && component->factor)) describe_states(*question.assembly, result);
+  const bool leaves_out = question.part && !symbolic::joints(*question.part).empty();
+  if (question.assembly && !leaves_out) describe_states(*question.assembly, result);
   return result;
 }
 

@@ -14,10 +14,29 @@
 #include "corank/solve/search/box_labels.h"
 #include "corank/solve/search/passes.h"
 #include "corank/solve/search/recut.h"
+#include "corank/study/search_steps.h"
 #include "corank/symbolic/model/set_definition.h"
+#include "corank/symbolic/sets/set_parts.h"
 
 namespace corank::study {
 namespace {
+
+// Is some part about an arm's joints alone, and can each such part have outputs? A picture of others beside it would show
+// whole ranges.
+bool lacks_outputs(const symbolic::Mechanism& model, const result::Result& result) {
+  bool lacks = false;
+  for (const result::Result& part : result.parts) {
+    if (left_out(part).empty() || part.cover.boxes.empty()) continue;
+    const auto has = [&](const std::string& name) { return has_coordinate(part, name); };
+    if (std::ranges::all_of(model.outputs(), has)) continue;
+    std::vector<std::string> own;
+    for (const symbolic::Coordinate& c : model.coordinates())
+      if (has(c.name)) own.push_back(c.name);
+    if (!symbolic::can_have_outputs(model, own)) return false;
+    lacks = true;
+  }
+  return lacks;
+}
 
 // Has the run ended? Then the sheets stay as they are, and the result says so.
 bool left_whole(const solve::Control& control, result::Result& result) {
@@ -38,6 +57,31 @@ solve::Options with_sigma(solve::Options options, const System& system, const Co
   options.sigma_angle = sigma.angle;
   options.surfaces_whole = true;
   return options;
+}
+
+// A part in an arm's joints alone is searched anew, with all coordinates that the outputs depend on, since a product knows
+// nothing of them. False where it is none; where the control ends the run, it stays.
+bool search_with_outputs(const symbolic::Mechanism& model, const solve::Options& options, solve::Control& control,
+                         result::Result& part) {
+  if (left_out(part).empty() || part.cover.boxes.empty()) return false;
+  Question question{.model = model,
+                    .set = symbolic::singularity_set_from_string(part.set),
+                    .constants = part.options.constants,
+                    .outputs = part.options.outputs,
+                    .part = result::part_of(model, part)};
+  if (!symbolic::add_outputs(model, *question.part)) return false;
+  const System system = study::system(question);
+  Options all{options};
+  all.search.surfaces_whole = false;
+  Asked asked = prepare(question, system, all, control);
+  Cover cover = solve::solve(asked.prepared, control);
+  solve::settle(asked.prepared, asked.settling, cover, control);
+  if (left_whole(control, part)) return true;
+  result::Result found = describe(question, system, all, std::move(cover), {});
+  found.part = part.part;
+  found.condition = part.condition;
+  part = std::move(found);
+  return true;
 }
 
 // Of a result without parts, or a part.
@@ -67,7 +111,9 @@ void cut_one(const symbolic::Mechanism& model, solve::Options options, solve::Co
 void cut_all(const solve::Options& options, solve::Control& control, result::Result& result) {
   const symbolic::Mechanism model = result::model_of(result);
   if (result.parts.empty()) return cut_one(model, options, control, result);
-  for (result::Result& part : result.parts) cut_one(model, options, control, part);
+  const bool lacks = lacks_outputs(model, result);
+  for (result::Result& part : result.parts)
+    if (!lacks || !search_with_outputs(model, options, control, part)) cut_one(model, options, control, part);
   result::merge_parts(result);
   result::describe_in_words(model, result::system_of(model, result), result);
 }
@@ -75,6 +121,8 @@ void cut_all(const solve::Options& options, solve::Control& control, result::Res
 }  // namespace
 
 bool is_whole(const result::Result& result) {
+  const auto leaves_out = [](const result::Result& part) { return !left_out(part).empty(); };
+  if (std::ranges::any_of(result.parts, leaves_out) && lacks_outputs(result::model_of(result), result)) return true;
   const auto is_sheet = [](const CoverBox& box) {
     return box.verdict == Verdict::regular || box.verdict == Verdict::boundary;
   };

@@ -61,11 +61,18 @@ bool is_about(const symbolic::SetPart& part, const Result& result) {
          (!limits || limits->of_output || limits->has_multipliers != result.options.kernel.empty());
 }
 
+bool has_outputs(const symbolic::Mechanism& mechanism, const Result& result) {
+  return std::ranges::all_of(mechanism.outputs(), [&](const std::string& name) { return has_coordinate(result, name); });
+}
+
 // The parts that these results are about, all or some of a set's. Of a boundary either those of today, or as older programs
 // had them, each with its λ.
 std::vector<symbolic::SetPart> parts_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
                                         std::span<const Result> results) {
   std::vector<symbolic::SetPart> parts = symbolic::set_parts(mechanism, set);
+  for (symbolic::SetPart& part : parts)
+    for (const Result& result : results)
+      if (is_about(part, result) && has_outputs(mechanism, result)) symbolic::add_outputs(mechanism, part);
   const bool has_all = std::ranges::all_of(results, [&](const Result& result) {
     return std::ranges::any_of(parts, [&](const symbolic::SetPart& part) { return is_about(part, result); });
   });
@@ -77,14 +84,6 @@ std::vector<symbolic::SetPart> parts_of(const symbolic::Mechanism& mechanism, sy
 System compiled(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const symbolic::SetPart& part,
                 const Result& result) {
   return symbolic::SetEquations(mechanism, set, part).compiled(result.options.kernel_scales);
-}
-
-// Of a part, or of what all parts have in common.
-System system_of_part(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const Result& result) {
-  if (result.part.empty()) return symbolic::configurations(mechanism);
-  for (const symbolic::SetPart& part : parts_of(mechanism, set, std::span(&result, 1)))
-    if (is_about(part, result)) return compiled(mechanism, set, part, result);
-  throw ResultFileError("the result's model has no part '" + result.part + "'");
 }
 
 void add(const Tally& t, Tally& sum) {
@@ -187,9 +186,10 @@ void sample_parts(const symbolic::Mechanism& model, const Result& result, const 
     if (component_of(all[i]) != nullptr)
       parts.push_back({result.parts[i].part, systems[i], result.parts[i].free_coordinates});
   if (parts.empty()) return;
-  const symbolic::SetEquations whole = symbolic::definition(set).of_parts
-                                           ? symbolic::SetEquations(model, set, symbolic::BoundaryPart{})
-                                           : symbolic::SetEquations(model, set);
+  const auto* limits = std::get_if<symbolic::BoundaryPart>(&all.front());
+  const symbolic::SetEquations whole =
+      limits ? symbolic::SetEquations(model, set, symbolic::BoundaryPart{.active = {}, .idle = limits->idle})
+             : symbolic::SetEquations(model, set);
   const System system = whole.compiled(whole.scales());
   Report report;
   report.interrupted = !check::finishes([&] {
@@ -277,8 +277,9 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
     throw ResultFileError("the result's model has no set '" + result.set + "'");
   const bool parts = set && (symbolic::definition(set).of_parts || !result.part.empty() || !result.parts.empty());
   System system =
-      parts ? system_of_part(mechanism, *set, result)
-            : symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism));
+      !parts ? symbolic::algebrize(set ? equations_of(mechanism, *set, result.options) : symbolic::plain_system(mechanism))
+      : result.part.empty() ? symbolic::configurations(mechanism)
+                            : compiled(mechanism, *set, part_of(mechanism, result), result);
   system.coefficient_tolerance = result.options.tolerance;
   if (parts) return system;
   try {
@@ -287,6 +288,13 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
     throw ResultFileError(std::string("the result's system: ") + error.what());
   }
   return system;
+}
+
+symbolic::SetPart part_of(const symbolic::Mechanism& mechanism, const Result& result) {
+  if (const auto set = symbolic::singularity_set_from_string(result.set); set && !result.part.empty())
+    for (symbolic::SetPart& part : parts_of(mechanism, *set, std::span(&result, 1)))
+      if (is_about(part, result)) return std::move(part);
+  throw ResultFileError("the result's model has no part '" + result.part + "'");
 }
 
 std::optional<VelocityBlocks> blocks_of(const Result& result) {

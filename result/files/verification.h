@@ -9,6 +9,7 @@
 #include "corank/check/checker.h"
 #include "corank/check/part_samples.h"
 #include "corank/result/values/result.h"
+#include "corank/symbolic/sets/set_parts.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::result {
@@ -37,6 +38,10 @@ symbolic::TrigonometricSystem equations_of(const symbolic::Mechanism& model, sym
 System system_of(const Result& result);
 /// The same for its model, model_of(result), made before.
 System system_of(const symbolic::Mechanism& model, const Result& result);
+
+/// The part of its model's set that a result is about, with outputs where it has these. Throws ResultFileError where there
+/// is none.
+symbolic::SetPart part_of(const symbolic::Mechanism& model, const Result& result);
 
 /// The blocks of L whose ranks a result's types speak of; nothing where it has no types.
 std::optional<VelocityBlocks> blocks_of(const Result& result);

@@ -95,12 +95,14 @@ symbolic::Mechanism model_of(const Result& result) {
   return model;
 }
 
+bool has_coordinate(const Result& result, const std::string& name) {
+  return std::ranges::find(result.variables, name, &ResultVariable::name) != result.variables.end() ||
+         std::ranges::find(result.angles, name, &Angle::name) != result.angles.end();
+}
+
 std::vector<std::string> left_out(const Result& part) {
   std::vector<std::string> list = part.free_coordinates;
-  std::erase_if(list, [&](const std::string& name) {
-    return std::ranges::find(part.variables, name, &ResultVariable::name) != part.variables.end() ||
-           std::ranges::find(part.angles, name, &Angle::name) != part.angles.end();
-  });
+  std::erase_if(list, [&](const std::string& name) { return has_coordinate(part, name); });
   return list;
 }
 

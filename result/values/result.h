@@ -135,6 +135,8 @@ struct Result {
 /// Copies what a result keeps of a system: variables, angles, sizes, and its dimension to the cover.
 void describe_system(const System& system, Result& result);
 
+/// Do its boxes have sides for the coordinate?
+bool has_coordinate(const Result& result, const std::string& name);
 /// The free coordinates that the boxes have no sides for: each is solved for all of its values.
 std::vector<std::string> left_out(const Result& part);
 /// Of the set: that of its boxes, and what they leave out.

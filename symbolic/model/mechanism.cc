@@ -46,6 +46,31 @@ Mechanism Mechanism::without_rates() const {
   return result;
 }
 
+Mechanism Mechanism::without(const std::vector<std::string>& coordinates) const {
+  const std::unordered_set<std::string> names(coordinates.begin(), coordinates.end());
+  const auto stands_in = [&](const Constraint& c) {
+    return std::ranges::any_of(
+        names, [&](const std::string& name) { return c.relation.lhs.mentions(name) || c.relation.rhs.mentions(name); });
+  };
+  Mechanism result = without_rates();
+  for (auto* list : {&result.constraints_, &result.implied_}) std::erase_if(*list, stands_in);
+  std::erase_if(result.coordinates_, [&](const Coordinate& c) { return names.contains(c.name); });
+  std::erase_if(result.limits_, [&](const Limit& limit) { return names.contains(limit.coordinate); });
+  std::erase_if(result.composites_, [&](const Composite& c) {
+    return std::ranges::any_of(c.components, [&](const std::string& name) { return names.contains(name); });
+  });
+  for (auto* list : {&result.inputs_, &result.outputs_})
+    std::erase_if(*list, [&](const std::string& name) { return names.contains(name); });
+  std::erase_if(result.names_, [](const auto& entry) { return entry.second.kind != Declared::constant; });
+  const auto register_names = [&](const auto& things, Declared kind) {
+    for (std::size_t k = 0; k < things.size(); ++k)
+      result.names_.emplace(things[k].name, Declaration{kind, k, things[k].where});
+  };
+  register_names(result.coordinates_, Declared::coordinate);
+  register_names(result.composites_, Declared::composite);
+  return result;
+}
+
 void Mechanism::declare(const std::string& name, Declared kind, const SourceLocation& where) {
   const std::string expectation = kind == Declared::constant ? "another name for the constant"
                                   : kind == Declared::rate   ? "another name for the rate"

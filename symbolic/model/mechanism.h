@@ -205,6 +205,8 @@ class Mechanism {
   const SourceLocation& outputs_where() const { return outputs_where_; }
   /// The same with the derivative of its constraints as velocity equation, and nothing to draw.
   Mechanism without_rates() const;
+  /// without_rates(), and without these coordinates and every constraint, limit, unit vector and rotation that has one.
+  Mechanism without(const std::vector<std::string>& coordinates) const;
   /// No inputs and no outputs, neither coordinates nor rates.
   bool is_plain_system() const;
   /// Index of a coordinate, −1 where there is none.

@@ -61,8 +61,8 @@ void count(Outline& o) {
 
 // A coordinate that has one value is held where the outputs are free all the same: else it is one that the mechanism holds,
 // such as the orientation of a platform that only translates, or the set is cut there.
-Outline outline(const Mechanism& mechanism) {
-  Outline o{mechanism.without_rates(), {}, {}};
+Outline outline(const Mechanism& mechanism, const IdleCoordinates& idle) {
+  Outline o{without_idle(mechanism.without_rates(), idle), {}, {}};
   const SourceLocation where{mechanism.name(), 0, 0};
   if (mechanism.outputs().empty()) {
     const bool by_rates = std::ranges::any_of(mechanism.rates(), [](const Rate& r) { return r.role == Role::output; });
@@ -82,8 +82,10 @@ Outline outline(const Mechanism& mechanism) {
   if (held.free <= held.mobility) o = std::move(held);
   if (o.phi.empty() || o.free > o.mobility || o.free < 1)
     throw ModelError(where,
-                     "the mechanism has mobility " + std::to_string(o.mobility) + ", but " + std::to_string(o.free) +
-                         " free output" + (o.free == 1 ? "" : "s") + " (" + listed(mechanism.outputs()) + ")",
+                     "the mechanism has mobility " + std::to_string(o.mobility) +
+                         (idle.free.empty() ? "" : " without " + listed(idle.free) + ", which no output depends on") +
+                         ", but " + std::to_string(o.free) + " free output" + (o.free == 1 ? "" : "s") + " (" +
+                         listed(mechanism.outputs()) + ")",
                      "at least one output, and at most as many as the mobility, as --outputs NAME,NAME chooses them");
   return o;
 }
@@ -226,7 +228,8 @@ std::string BoundaryPart::text() const {
 }
 
 std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
-  const Outline o = outline(mechanism);
+  const IdleCoordinates idle = idle_coordinates(mechanism.without_rates());
+  const Outline o = outline(mechanism, idle);
   const std::size_t most = o.mobility - o.free + 1;
   std::vector<Limit> others, of_outputs;
   for (const Limit& limit : effective_limits(mechanism))
@@ -238,16 +241,18 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
   for (const Limit& limit : of_outputs)
     for (const bool upper : {false, true})
       parts.push_back({{{limit.coordinate, upper ? limit.upper : limit.lower, upper}}, true, false});
+  if (!idle.free.empty())
+    for (BoundaryPart& part : parts) part.idle = idle;
   return parts;
 }
 
 KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& part) {
-  return question(outline(mechanism), part);
+  return question(outline(mechanism, part.idle), part);
 }
 
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
                                         const TrigonometricSystem& system, const System& compiled) {
-  const Outline o = outline(mechanism);
+  const Outline o = outline(mechanism, part.idle);
   if (o.dependencies > 0 || (part.component && part.component->factor)) return std::nullopt;
   if (part.of_output) return form_of_output(mechanism, part.active.front());
   const std::shared_ptr<const SecondOrder> all = second_order(o);

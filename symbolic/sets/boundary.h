@@ -10,7 +10,8 @@
 // Theorem (doc/theory.md, "Workspace boundaries"): the configurations from which the output cannot move, to first order and
 // with the coordinates at their limits kept there, in some direction are those of the parts with |A| ≤ n − n_u + 1 and of
 // the limited outputs. A part A has the expected dimension n_u − 1. The workspace may also end where an inequality of the
-// model is reached, which is not looked for: DomainNotes::no_limits.
+// model is reached, which is not looked for: DomainNotes::no_limits. Idle coordinates (idle_coordinates.h) are left out
+// before; their ranges are factors of each part.
 //
 // Generalized singularities: Bohigas, Manubens, Ros, "Singularities of Robot Mechanisms", 2017 (key Bohigas2017), whose
 // sin τ in place of a limited coordinate gives the same configurations, each several times.
@@ -22,6 +23,7 @@
 
 #include "corank/core/system.h"
 #include "corank/symbolic/sets/decomposition.h"
+#include "corank/symbolic/sets/idle_coordinates.h"
 #include "corank/symbolic/sets/limits.h"
 #include "corank/symbolic/sets/singularity_system.h"
 
@@ -36,6 +38,7 @@ struct BoundaryPart {
   std::vector<Active> active;
   bool of_output = false;       ///< `active` is one output, at its limit
   bool has_multipliers = true;  ///< λ is a part of its system (set_parts.h)
+  IdleCoordinates idle{};  ///< that its system is without: the set is the product with the ranges of those that are free
   /// In place of λᵀ Φ_{z_j} = 0, where these say that a square matrix is singular, and that is a union.
   std::optional<Component> component{};
 

@@ -30,7 +30,10 @@ bool is_named(const SetPart& part, const std::string& name) {
 
 std::vector<std::string> joints(const SetPart& part) {
   const Component* component = component_of(part);
-  return component ? component->joints : std::vector<std::string>();
+  std::vector<std::string> names = component ? component->joints : std::vector<std::string>();
+  if (const auto* limits = std::get_if<BoundaryPart>(&part))
+    names.insert(names.end(), limits->idle.free.begin(), limits->idle.free.end());
+  return names;
 }
 
 namespace {
@@ -140,12 +143,28 @@ std::vector<BoundaryPart> without_multipliers(const Mechanism& mechanism, Bounda
   return result;
 }
 
+struct WithOutputs {
+  TrigonometricSystem factor;       // as Component::factor
+  std::vector<std::string> joints;  // as Component::joints
+};
+
+// Of a part about the coordinates `own`; nothing where it has its outputs, or would be more than a surface.
+std::optional<WithOutputs> with_outputs(const Mechanism& mechanism, const std::vector<std::string>& own) {
+  constexpr int kSurface = 2;
+  const auto has = [&](const std::string& name) { return std::ranges::find(own, name) != own.end(); };
+  if (std::ranges::all_of(mechanism.outputs(), has)) return std::nullopt;
+  const IdleCoordinates idle = idle_coordinates(mechanism, own);
+  TrigonometricSystem system = plain_system(without_idle(mechanism, idle));
+  if (algebrize(system).dimension() - 1 > kSurface) return std::nullopt;
+  return WithOutputs{std::move(system), idle.free};
+}
+
 std::vector<SetPart> found_boundary(const Mechanism& mechanism, const Ended& ended) {
   std::vector<SetPart> result;
-  const Mechanism configurations = mechanism.without_rates();
-  for (BoundaryPart& part : boundary_parts(mechanism))
-    for (BoundaryPart& one : without_multipliers(configurations, std::move(part), ended))
-      result.emplace_back(std::move(one));
+  std::vector<BoundaryPart> parts = boundary_parts(mechanism);
+  const Mechanism moving = without_idle(mechanism.without_rates(), parts.front().idle);
+  for (BoundaryPart& part : parts)
+    for (BoundaryPart& one : without_multipliers(moving, std::move(part), ended)) result.emplace_back(std::move(one));
   return result;
 }
 
@@ -172,14 +191,32 @@ std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, c
   return as_parts(components(mechanism, kernel_question(mechanism, set), ended, free));
 }
 
+bool can_have_outputs(const Mechanism& mechanism, const std::vector<std::string>& own) {
+  return with_outputs(mechanism, own).has_value();
+}
+
+bool add_outputs(const Mechanism& mechanism, SetPart& part) {
+  auto* component = std::get_if<Component>(&part);
+  if (!component || !component->factor) return false;
+  std::optional<WithOutputs> with = with_outputs(mechanism, names_of(component->factor->coordinates));
+  if (!with) return false;
+  component->factor = std::make_shared<const TrigonometricSystem>(std::move(with->factor));
+  component->joints = std::move(with->joints);
+  return true;
+}
+
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side)
     : mechanism_(mechanism), set_(set) {
   if (definition(set).has_kernel()) kernel_.emplace(kernel_question(mechanism, set, side));
 }
 
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, SetPart part)
-    : mechanism_(definition(set).of_parts ? mechanism.without_rates() : mechanism), set_(set), part_(std::move(part)) {
+    : mechanism_(mechanism), set_(set), part_(std::move(part)) {
   const auto* limits = std::get_if<BoundaryPart>(&*part_);
+  if (limits) {
+    mechanism_ = without_idle(mechanism.without_rates(), limits->idle);
+    if (!limits->idle.free.empty()) whole_ = mechanism.coordinates();
+  }
   const Component* component = component_of(*part_);
   if (limits && limits->has_multipliers) {
     kernel_.emplace(boundary_kernel(mechanism_, *limits));
@@ -207,6 +244,7 @@ TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales,
                                : component && component->factor ? *component->factor
                                                                 : plain_system(mechanism_);
   if (component && component->factor) system.coordinates_of_whole = mechanism_.coordinates();
+  if (!whole_.empty()) system.coordinates_of_whole = whole_;
   if (!kernel_) system.name += std::string(" ") + definition(set_).name;
   if (!part_) return system;
   if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) set_at_limits(*limits, system);

@@ -25,7 +25,7 @@ std::string text(const SetPart& part);
 bool is_named(const SetPart& part, const std::string& name);
 /// The condition of a part that has one in place of a kernel vector; else nullptr.
 const Component* component_of(const SetPart& part);
-/// Of a part in fewer coordinates those that give all others (Component::joints); else none.
+/// Of a part in fewer coordinates those that, with the part's own, give all others; else none.
 std::vector<std::string> joints(const SetPart& part);
 
 /// boundary_parts(), requirement_parts(), or decompose(). Throws ModelError as these do.
@@ -38,6 +38,12 @@ std::vector<std::string> joints(const SetPart& part);
 /// `free`: free_coordinates(), where somebody has asked for them before.
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended = {},
                                const std::optional<FreeCoordinates>* free = nullptr);
+
+/// Is an arm's part that is about these coordinates alone, `own`, at most a surface with all those that its outputs depend
+/// on? If it lacks some.
+bool can_have_outputs(const Mechanism& mechanism, const std::vector<std::string>& own);
+/// Makes it that, as who draws it wants it. False where it cannot be, or lacks none.
+bool add_outputs(const Mechanism& mechanism, SetPart& part);
 
 /// What solves a set, or one of its parts: what its kernel is asked of, made once. Throws ModelError as kernel_question(),
 /// boundary_parts() and singularity_system() do.
@@ -58,7 +64,8 @@ class SetEquations {
   void set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const;
   void add_condition(const Component& part, TrigonometricSystem& system) const;
 
-  Mechanism mechanism_;  // of a boundary without a velocity equation of its own
+  Mechanism mechanism_;              // of a boundary without a velocity equation of its own, and without idle coordinates
+  std::vector<Coordinate> whole_{};  // with them, if there are some
   SingularitySet set_;
   std::optional<SetPart> part_;
   /// Nothing: of all configurations, cusps, nodes, or of a part without a kernel vector.

@@ -1,0 +1,253 @@
+// Arms some of whose joints do not move the tool's tip: boundaries of their workspaces, and pictures of their
+// singularities, against kinematics in double precision.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include "corank/result/files/verification.h"
+#include "corank/study/answer.h"
+#include "corank/study/cut.h"
+#include "corank/study/model.h"
+#include "corank/tests/seeds.h"
+
+namespace corank {
+namespace {
+
+using Eigen::Vector3d;
+using Joints = std::vector<double>;
+constexpr double kPi = std::numbers::pi;
+
+/// By modified Denavit and Hartenberg: Rx(alpha) Tx(a) Rz(theta) Tz(d). The last `idle` joints turn about the tip.
+struct Arm {
+  struct Row {
+    double alpha, a, d;  // alpha in degrees
+    bool slides;
+    double lower, upper;  // in degrees where it turns
+  };
+  std::vector<Row> rows;
+  std::size_t idle = 0;
+
+  std::string text() const {
+    std::string text = "[DH]\nmodified\nalpha a d theta\n";
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Row& r = rows[i];
+      const std::string deg = r.slides ? "" : "deg", q = fmt::format("q{}", i + 1);
+      text += fmt::format("{}deg {} {} {} limits [{}{}, {}{}]\n", r.alpha, r.a, r.slides ? q : fmt::format("{}", r.d),
+                          r.slides ? "0" : q, r.lower, deg, r.upper, deg);
+    }
+    return text;
+  }
+  double lower(std::size_t i) const { return rows[i].slides ? rows[i].lower : rows[i].lower * kPi / 180; }
+  double upper(std::size_t i) const { return rows[i].slides ? rows[i].upper : rows[i].upper * kPi / 180; }
+  std::size_t moving() const { return rows.size() - idle; }
+
+  Vector3d tip(const Joints& q) const {
+    Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Row& r = rows[i];
+      t.rotate(Eigen::AngleAxisd(r.alpha * kPi / 180, Vector3d::UnitX()));
+      t.translate(Vector3d(r.a, 0, 0));
+      t.rotate(Eigen::AngleAxisd(r.slides ? 0 : q[i], Vector3d::UnitZ()));
+      t.translate(Vector3d(0, 0, r.slides ? q[i] : r.d));
+    }
+    return t.translation();
+  }
+  double determinant(const Joints& q) const {
+    constexpr double kStep = 1e-5;
+    Eigen::Matrix3d j;
+    for (std::size_t i = 0; i < 3; ++i) {
+      Joints more = q, less = q;
+      more[i] += kStep, less[i] -= kStep;
+      j.col(static_cast<Eigen::Index>(i)) = (tip(more) - tip(less)) / (2 * kStep);
+    }
+    return j.determinant();
+  }
+};
+
+Arm scara() {
+  return {{{0, 0, 0.4, false, -130, 130},
+           {0, 0.325, 0, false, -145, 145},
+           {0, 0.225, 0, true, -0.2, 0},
+           {0, 0, 0, false, -360, 360}},
+          1};
+}
+
+study::Model model_of(const Arm& arm) { return study::parse_model({.text = arm.text(), .file = "arm.cuik"}); }
+
+result::Result answer_to(const Arm& arm, symbolic::SingularitySet set, std::uint64_t most = 0) {
+  study::Options options;
+  options.search.surfaces_whole = true;
+  options.search.max_boxes = most;
+  return study::answer({.model = model_of(arm).mechanism, .set = set}, options);
+}
+
+// Of the named part without its condition; any part where no name is given.
+bool holds(const result::Result& result, const Arm& arm, const Joints& q, const std::string& part = "") {
+  constexpr double kRoom = 1e-6;
+  const Vector3d tip = arm.tip(q);
+  std::map<std::string, double> values{{"tool_x", tip[0]}, {"tool_y", tip[1]}, {"tool_z", tip[2]}};
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const std::string name = fmt::format("q{}", i + 1);
+    if (arm.rows[i].slides) values[name] = q[i];
+    if (!arm.rows[i].slides) values["c_" + name] = std::cos(q[i]), values["s_" + name] = std::sin(q[i]);
+  }
+  return std::ranges::any_of(result.cover.boxes, [&](const CoverBox& box) {
+    const std::string& name = result.parts[static_cast<std::size_t>(box.part)].part;
+    if (!part.empty() && name.substr(0, name.find(':')) != part) return false;
+    for (std::size_t v = 0; v < result.variables.size(); ++v) {
+      const auto value = values.find(result.variables[v].name);
+      if (value == values.end()) continue;  // components of axes
+      if (value->second < box.box[v].lo() - kRoom || value->second > box.box[v].hi() + kRoom) return false;
+    }
+    return true;
+  });
+}
+
+class RandomArm {
+ public:
+  explicit RandomArm(unsigned seed) : random_(seed) {
+    const double angles[] = {0, 90, -90, 30};
+    for (int i = 0; i < 3; ++i) {
+      const bool slides = draw(0, 3) == 0;
+      const double lower = slides ? draw(0, 4) / 10.0 : draw(-170, 0), upper = slides ? lower + 0.5 : draw(10, 170);
+      arm.rows.push_back(
+          {i == 0 ? 0 : angles[draw(0, 3)], i == 0 ? 0 : draw(0, 10) / 10.0, draw(0, 5) / 10.0, slides, lower, upper});
+    }
+    arm.idle = 1 + draw(0, 1);
+    arm.rows.push_back({angles[draw(0, 3)], draw(3, 10) / 10.0, draw(0, 5) / 10.0, false, -100, 100});
+    if (arm.idle == 2) arm.rows.push_back({angles[draw(0, 3)], 0, 0, false, -200, 200});
+  }
+  Joints configuration() {
+    Joints q;
+    for (std::size_t i = 0; i < arm.rows.size(); ++i)
+      q.push_back(std::uniform_real_distribution(arm.lower(i), arm.upper(i))(random_));
+    return q;
+  }
+  // On a line between two of them, where the tip's Jacobian is singular.
+  std::optional<Joints> singular() {
+    Joints from = configuration(), to = configuration();
+    const auto at = [&](double t) {
+      Joints q = from;
+      for (std::size_t i = 0; i < arm.moving(); ++i) q[i] += t * (to[i] - from[i]);
+      return q;
+    };
+    double lo = 0, hi = 1;
+    const bool rises = arm.determinant(at(lo)) < 0;
+    if (rises == (arm.determinant(at(hi)) < 0)) return std::nullopt;
+    for (int i = 0; i < 60; ++i) {
+      const double mid = (lo + hi) / 2;
+      ((arm.determinant(at(mid)) < 0) == rises ? lo : hi) = mid;
+    }
+    return at(lo);
+  }
+  int draw(int from, int to) { return std::uniform_int_distribution(from, to)(random_); }
+
+  Arm arm;
+
+ private:
+  std::mt19937 random_;
+};
+
+TEST(IdleJoints, AreLeftOutOfTheBoundaryOfAScara) {
+  const result::Result result = answer_to(scara(), symbolic::SingularitySet::boundary);
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_EQ(result.cover.count(Verdict::undecided), 0u);
+  EXPECT_LT(result.cover.boxes.size(), 500u);
+  EXPECT_THAT(result.free_coordinates, testing::ElementsAre("q4"));
+  EXPECT_EQ(result.parts.size(), 7u) << "a limit of q4 makes no part";
+  std::size_t barriers = 0;
+  for (const CoverBox& box : result.cover.boxes) barriers += box.passage == Passage::barrier;
+  EXPECT_GT(barriers, result.cover.boxes.size() / 2);
+  const result::Verification verification = result::verify(result);
+  EXPECT_TRUE(verification.verified());
+  ASSERT_TRUE(verification.samples);
+  EXPECT_GT(verification.samples->of_set, 0);
+}
+
+TEST(IdleJoints, OfRandomArmsLoseNothingOfTheBoundary) {
+  std::size_t arms = 0, samples = 0, singular = 0;
+  for (unsigned seed = 0; seed < test::seeds(12); ++seed) {
+    RandomArm random(seed);
+    const Arm& arm = random.arm;
+    if (std::fabs(arm.determinant(random.configuration())) < 1e-9) continue;  // the tip stays in a plane, or on a line
+    const result::Result result = answer_to(arm, symbolic::SingularitySet::boundary, 20'000);
+    if (!result.cover.complete()) continue;
+    ++arms;
+    EXPECT_EQ(result::left_out(result.parts.front()).size() >= arm.idle, true) << arm.text();
+    for (int k = 0; k < 20; ++k) {
+      const Joints q = random.configuration();
+      for (std::size_t i = 0; i < arm.moving(); ++i) {
+        const bool upper = random.draw(0, 1) == 1;
+        Joints at = q;
+        at[i] = upper ? arm.upper(i) : arm.lower(i);
+        EXPECT_TRUE(holds(result, arm, at, fmt::format("q{} at its {} limit", i + 1, upper ? "upper" : "lower")))
+            << arm.text();
+        ++samples;
+      }
+      if (const auto s = random.singular()) {
+        EXPECT_TRUE(holds(result, arm, *s, "no limit")) << arm.text();
+        ++singular;
+      }
+    }
+    if (seed % 4 == 0) {
+      EXPECT_TRUE(result::verify(result).verified()) << arm.text();
+    }
+  }
+  EXPECT_GT(arms, test::seeds(12) / 2);
+  EXPECT_GT(samples, 20 * arms);
+  EXPECT_GT(singular, arms);
+}
+
+// A set in the joints alone says nothing of the outputs until it is drawn.
+TEST(IdleJoints, OfAScaraStayOutOfThePictureOfItsSingularities) {
+  const result::Result whole = answer_to(scara(), symbolic::SingularitySet::inverse);
+  EXPECT_EQ(whole.cover.boxes.size(), 1u);
+  EXPECT_TRUE(study::is_whole(whole));
+  solve::Control control;
+  const result::Result cut = study::cut(whole, {.sigma = 0.02}, control);
+  EXPECT_TRUE(cut.cover.complete());
+  EXPECT_FALSE(study::is_whole(cut));
+  EXPECT_EQ(cut.cover.dimension, 3);
+  EXPECT_THAT(cut.free_coordinates, testing::Contains("q4"));
+  const auto place = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(cut.variables, name, &result::ResultVariable::name) -
+                                    cut.variables.begin());
+  };
+  for (const CoverBox& box : cut.cover.boxes)
+    EXPECT_NEAR(std::hypot(box.box[place("tool_x")].mid(), box.box[place("tool_y")].mid()), 0.55, 0.02);
+  for (double q1 = -2.2; q1 < 2.2; q1 += 0.05) EXPECT_TRUE(holds(cut, scara(), {q1, 0, -0.03 * (q1 + 2.3), 3 * q1}));
+  EXPECT_TRUE(result::verify(cut).verified());
+}
+
+TEST(IdleJoints, OfRandomArmsLoseNothingOfThePicture) {
+  std::size_t arms = 0, singular = 0;
+  for (unsigned seed = 0; seed < test::seeds(8); ++seed) {
+    RandomArm random(seed);
+    const result::Result whole = answer_to(random.arm, symbolic::SingularitySet::inverse, 20'000);
+    if (!whole.cover.complete() || whole.parts.empty() || !study::is_whole(whole)) continue;
+    solve::Control control;
+    const result::Result cut = study::cut(whole, {.sigma = 0.2, .max_boxes = 200'000}, control);
+    if (!cut.stopped.empty()) continue;
+    ++arms;
+    for (int k = 0; k < 20; ++k)
+      if (const auto s = random.singular()) {
+        EXPECT_TRUE(holds(cut, random.arm, *s)) << random.arm.text();
+        ++singular;
+      }
+    if (seed % 4 == 0) {
+      EXPECT_TRUE(result::verify(cut).verified()) << random.arm.text();
+    }
+  }
+  EXPECT_GT(arms, test::seeds(8) / 4);
+  EXPECT_GT(singular, arms);
+}
+
+}  // namespace
+}  // namespace corank
