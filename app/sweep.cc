@@ -65,7 +65,7 @@ std::vector<Plan> plan_all(const SweepCommand& command, const Family& family) {
             fmt::format("--sets {}: corank sweep cannot draw this set; corank solve computes it for one mechanism", name));
       p.question.set = symbolic::singularity_set_from_string(name);
       p.systems.push_back(study::system(p.question));
-      p.labellings.push_back(study::labelling(p.question));
+      p.labellings.push_back(study::labelling(p.question, p.systems.back()));
     }
   }
   return plans;

@@ -70,6 +70,7 @@ ExactVerification fails(const std::string& reason) { return {false, reason, -1};
 }  // namespace
 
 PolynomialMatrix kernel_matrix(const System& system) {
+  if (system.singular) return *system.singular;
   std::vector<int> unknowns;
   for (int j = 0; j < system.size(); ++j)
     if (is_kernel(system, j)) unknowns.push_back(j);

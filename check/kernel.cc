@@ -32,6 +32,7 @@ constexpr int kMostKernelParts = 2000;
 }  // namespace
 
 PolynomialMatrix kernel_matrix(const System& system) {
+  if (system.singular) return *system.singular;
   const auto is_kernel = [&](int j) { return system.variables[j].kind == VariableKind::kernel; };
   const auto of_kernel = [&](const Factor& x) { return is_kernel(x.variable); };
   std::vector<int> unknowns;

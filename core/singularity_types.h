@@ -44,12 +44,6 @@ struct TypeLabels {
   friend bool operator==(const TypeLabels&, const TypeLabels&) = default;
 };
 
-/// Row by row.
-struct PolynomialMatrix {
-  int rows = 0, columns = 0;
-  std::vector<Polynomial> entries;
-};
-
 /// Which block of L: all of it, L_y, L_z, L_p, g_v, g_u.
 enum class Block : std::uint8_t { all, forward, inverse, passive, input_dependencies, output_dependencies };
 inline constexpr int kBlocks = 6;

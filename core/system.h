@@ -57,6 +57,12 @@ struct Angle {
 
 inline constexpr double kCoefficientToleranceLimit = 0.1;
 
+/// Row by row.
+struct PolynomialMatrix {
+  int rows = 0, columns = 0;
+  std::vector<Polynomial> entries;
+};
+
 struct System {
   std::string name;                      ///< e.g. "dextar forward"
   std::vector<Variable> variables;       ///< n
@@ -82,6 +88,8 @@ struct System {
   bool passive_rates_eliminated = false;
   /// Of a part of a workspace boundary: what decides whether the output can pass.
   std::optional<PassageForm> passage;
+  /// M, of a part that has an equation in place of M(q) ξ = 0: singular at every solution.
+  std::optional<PolynomialMatrix> singular{};
 
   int size() const { return static_cast<int>(variables.size()); }
   /// Of each variable the enclosure of its search domain.

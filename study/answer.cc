@@ -111,7 +111,7 @@ Asked prepare(const Question& question, const System& system, const Options& opt
     nodes = node_search(question, system, searched, control);
     searched.roots = std::move(nodes.roots);
   }
-  solve::Settling settling{settled ? labelling(question) : std::nullopt, options.digits, nodes.processed};
+  solve::Settling settling{settled ? labelling(question, system) : std::nullopt, options.digits, nodes.processed};
   return {solve::prepare(system, searched, control), std::move(settling)};
 }
 
@@ -157,8 +157,8 @@ result::Result answer(const Question& question, const System& system, const Opti
   return result;
 }
 
-std::optional<solve::Labelling> labelling(const Question& q) {
-  if (!q.set || q.part) return std::nullopt;
+std::optional<solve::Labelling> labelling(const Question& q, const System& system) {
+  if (!q.set || (q.part && !system.singular)) return std::nullopt;
   auto blocks = symbolic::velocity_blocks(q.model, *q.set, q.kernel, q.corank);
   if (!blocks) return std::nullopt;
   return solve::Labelling{std::move(*blocks), symbolic::definition(q.set).type};

@@ -18,7 +18,7 @@ namespace corank::study {
 struct EarlyTask {
   std::optional<symbolic::SingularitySet> set;  ///< of the question
   const System& system;                         ///< system(question)
-  std::optional<solve::Labelling> labelling;    ///< labelling(question)
+  std::optional<solve::Labelling> labelling;    ///< labelling(question, system)
   Options options;
   solve::Control::Limits limits;
   std::size_t kind = 0;  ///< of the same kind are alike: where one is not small, the others are not tried any more

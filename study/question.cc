@@ -146,8 +146,7 @@ System system(const Question& question, const symbolic::TrigonometricSystem& equ
                                  "a sum of the equations times polynomials, with rational coefficients; or leave it out, "
                                  "since it only serves to shorten the search");
   }
-  if (const auto* limits = question.part ? std::get_if<symbolic::BoundaryPart>(&*question.part) : nullptr)
-    system.passage = symbolic::passage_form(question.model, *limits, equations, system);
+  if (question.part) symbolic::add_claims(question.model, *question.set, *question.part, equations, system);
   settle_sizes(system);
   if (system.parameters() > 0 && question.tolerance.value_or(0) > 0)
     require_exact_constants(question.model, "a system whose coefficients have a tolerance");

@@ -26,8 +26,8 @@ void check_options(const solve::Options& options, const System& system);
 Asked prepare(const Question& question, const System& system, const Options& options, solve::Control& control,
               bool settled = true);
 
-/// What boxes are labelled with; nothing where they get no types.
-std::optional<solve::Labelling> labelling(const Question& question);
+/// What boxes are labelled with; nothing where they get no types. `system`: system(question).
+std::optional<solve::Labelling> labelling(const Question& question, const System& system);
 /// Puts beside a settled cover what a result says of its question. `ending`: of the control.
 result::Result describe(const Question& question, const System& system, const Options& options, Cover cover,
                         const std::optional<solve::Ending>& ending);

@@ -216,8 +216,10 @@ Verification verify_parts(const Result& result, Verification verification, const
     system.coefficient_tolerance = part.options.tolerance;
     for (const std::string& c : contradictions(part, system))
       verification.contradictions.push_back("(part: " + part.part + ") " + c);
-    if (verification.contradictions.empty())
-      add(check::check(system, part.cover, options), part.part, i == 0, verification.report);
+    if (verification.contradictions.empty()) {
+      const auto blocks = blocks_of(part);
+      add(check::check(system, part.cover, options, blocks ? &*blocks : nullptr), part.part, i == 0, verification.report);
+    }
     if (verification.report.interrupted) break;
   }
   if (verification.contradictions.empty() && !verification.report.interrupted)

@@ -21,10 +21,11 @@ std::vector<int> places(const Result& whole, const Result& part) {
 
 bool leaves_out(const std::vector<int>& places) { return std::ranges::find(places, -1) != places.end(); }
 
-// Its configuration alone: what is proven of it stays with the part, but for the exact point, whose index in the whole is so
-// much larger. What that leaves out may be all that it can. Without its region, free variables say that there is a solution
-// for every value of theirs.
-CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part, int points_before) {
+// Its configuration alone: what is proven of it stays with the part, but for `labels`, and for the exact point, whose index
+// in the whole is so much larger. What that leaves out may be all that it can. Without its region, free variables say that
+// there is a solution for every value of theirs.
+CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part, int points_before,
+                  bool labels) {
   CoverBox result;
   const bool in_part = !spans(whole.parts[part].cover, box);
   result.box.reserve(places.size());
@@ -40,20 +41,29 @@ CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Res
   result.reason = box.reason;
   result.passage = box.passage;
   result.side = box.side;
+  if (labels) {
+    result.types = box.types;
+    result.kernel_at_most = box.kernel_at_most;
+  }
   result.part = part;
   return result;
 }
 
-ExactPoint of_whole(const ExactPoint& point, const std::vector<int>& places) {
+ExactPoint of_whole(const ExactPoint& point, const std::vector<int>& places, bool labels) {
   ExactPoint result{point.polynomial, point.lower, point.upper, {}};
   for (const int own : places) result.coordinates.push_back(point.coordinates.at(own));
+  if (labels) {
+    result.corank = point.corank;
+    result.types = point.types;
+  }
   return result;
 }
 
 bool same_boxes(const std::vector<CoverBox>& merged, const std::vector<CoverBox>& stored) {
   return std::ranges::equal(merged, stored, [](const CoverBox& x, const CoverBox& y) {
     return x.box == y.box && x.verdict == y.verdict && x.passage == y.passage && x.side == y.side && x.part == y.part &&
-           x.free == y.free && x.reason == y.reason && (x.point == y.point || y.point < 0);
+           x.free == y.free && x.reason == y.reason && x.types == y.types && x.kernel_at_most == y.kernel_at_most &&
+           (x.point == y.point || y.point < 0);
   });
 }
 
@@ -122,14 +132,18 @@ void merge_parts(Result& whole) {
     return is_searched(part) && part.cover.dimension > 0 && !part.cover.boxes.empty();
   };
   const bool some_pieces = std::ranges::any_of(whole.parts, has_pieces);
+  const CoverTypes& types = whole.parts.front().cover.types;
+  const bool labels =
+      types.asked != 0 && std::ranges::all_of(whole.parts, [&](const Result& part) { return part.cover.types == types; });
+  if (labels) cover.types = types;
   for (std::size_t i = 0; i < whole.parts.size(); ++i) {
     const Result& part = whole.parts[i];
     const std::vector<int> from = places(whole, part);
     const int before = static_cast<int>(cover.exact_points.size());
     for (const auto& [own, all] : {std::pair(&part.cover.boxes, &cover.boxes), {&part.cover.points, &cover.points}})
-      for (const CoverBox& box : *own) all->push_back(of_whole(box, from, whole, static_cast<int>(i), before));
+      for (const CoverBox& box : *own) all->push_back(of_whole(box, from, whole, static_cast<int>(i), before, labels));
     if (!leaves_out(from))
-      for (const ExactPoint& point : part.cover.exact_points) cover.exact_points.push_back(of_whole(point, from));
+      for (const ExactPoint& point : part.cover.exact_points) cover.exact_points.push_back(of_whole(point, from, labels));
     if (is_searched(part) || !some_searched) cover.dimension = std::max(cover.dimension, dimension_of(part));
     if (some_pieces ? has_pieces(part) : is_searched(part) || !some_searched) {
       cover.sigma.length = std::max(cover.sigma.length, part.cover.sigma.length);
@@ -163,8 +177,8 @@ bool is_made_of_parts(const Result& whole) {
   merge_parts(merged);
   const Cover &made = merged.cover, &stored = whole.cover;
   return same_boxes(made.boxes, stored.boxes) && same_boxes(made.points, stored.points) &&
-         (stored.exact_points.empty() || made.exact_points == stored.exact_points) && made.dimension == stored.dimension &&
-         merged.outputs == whole.outputs;
+         (stored.exact_points.empty() || made.exact_points == stored.exact_points) && made.types == stored.types &&
+         made.dimension == stored.dimension && merged.outputs == whole.outputs;
 }
 
 }  // namespace corank::result

@@ -51,9 +51,11 @@ void serialize(auto& archive, PassageForm& f) {
   archive(f.equations, f.columns, f.jacobian, f.hessian, f.slack, f.normal, f.multipliers);
 }
 
+void serialize(auto& archive, PolynomialMatrix& m) { archive(m.rows, m.columns, m.entries); }
+
 void serialize(auto& archive, System& s) {
   archive(s.name, s.variables, s.equations, s.inequalities, s.claimed, s.implied, s.angles, s.coefficient_tolerance,
-          s.configuration_size, s.kernel_vectors, s.kernel_scales, s.passive_rates_eliminated, s.passage);
+          s.configuration_size, s.kernel_vectors, s.kernel_scales, s.passive_rates_eliminated, s.passage, s.singular);
 }
 
 void serialize(auto& archive, Elimination& e) { archive(e.variable, e.equation); }

@@ -9,6 +9,7 @@
 #include "corank/symbolic/sets/free_fold.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/symbolic/sets/part_names.h"
+#include "corank/symbolic/sets/velocity_blocks.h"
 
 namespace corank::symbolic {
 
@@ -205,6 +206,18 @@ bool add_outputs(const Mechanism& mechanism, SetPart& part) {
   return true;
 }
 
+bool has_labels(const SetPart& part, const System& compiled) {
+  const auto* component = std::get_if<Component>(&part);
+  return component && !component->block && !component->factor && compiled.dimension() <= 1;
+}
+
+void add_claims(const Mechanism& mechanism, SingularitySet set, const SetPart& part, const TrigonometricSystem& equations,
+                System& compiled) {
+  if (const auto* limits = std::get_if<BoundaryPart>(&part))
+    compiled.passage = passage_form(mechanism, *limits, equations, compiled);
+  if (has_labels(part, compiled)) compiled.singular = singular_matrix(mechanism, set);
+}
+
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side)
     : mechanism_(mechanism), set_(set) {
   if (definition(set).has_kernel()) kernel_.emplace(kernel_question(mechanism, set, side));
@@ -281,8 +294,7 @@ void SetEquations::add_condition(const Component& part, TrigonometricSystem& sys
 System SetEquations::compiled(const std::vector<std::string>& scales) const {
   const TrigonometricSystem equations = system(scales);
   System compiled = algebrize(equations);
-  if (const auto* limits = part_ ? std::get_if<BoundaryPart>(&*part_) : nullptr)
-    compiled.passage = passage_form(mechanism_, *limits, equations, compiled);
+  if (part_) add_claims(mechanism_, set_, *part_, equations, compiled);
   return compiled;
 }
 

@@ -45,6 +45,11 @@ bool can_have_outputs(const Mechanism& mechanism, const std::vector<std::string>
 /// Makes it that, as who draws it wants it. False where it cannot be, or lacks none.
 bool add_outputs(const Mechanism& mechanism, SetPart& part);
 
+/// Puts beside a part's equations what is said of its solutions: of a boundary's whether the output can pass, of a curve or
+/// points with a condition the matrix that is singular there. `compiled`: algebrize(equations).
+void add_claims(const Mechanism& mechanism, SingularitySet set, const SetPart& part, const TrigonometricSystem& equations,
+                System& compiled);
+
 /// What solves a set, or one of its parts: what its kernel is asked of, made once. Throws ModelError as kernel_question(),
 /// boundary_parts() and singularity_system() do.
 class SetEquations {
@@ -57,7 +62,7 @@ class SetEquations {
   /// Those that system() is meant to have (kernel_scale.h); none where there is no kernel vector.
   std::vector<std::string> scales() const;
   TrigonometricSystem system(const std::vector<std::string>& scales, int corank = 1) const;
-  /// algebrize() of system(), of a boundary's part with its passage form.
+  /// algebrize() of system(), of a part with add_claims().
   System compiled(const std::vector<std::string>& scales) const;
 
  private:

@@ -139,4 +139,16 @@ std::optional<PolynomialMatrix> locked_polynomials(const Mechanism& mechanism, S
   return std::move(found->front());
 }
 
+std::optional<PolynomialMatrix> singular_matrix(const Mechanism& mechanism, SingularitySet set) {
+  const KernelQuestion kernel = kernel_question(mechanism, set);
+  std::optional<std::vector<PolynomialMatrix>> found = as_polynomials(mechanism, std::span(&kernel.matrix, 1));
+  if (!found) return std::nullopt;
+  PolynomialMatrix& m = found->front();
+  if (kernel.side == KernelSide::right) return std::move(m);
+  PolynomialMatrix transposed{m.columns, m.rows, {}};
+  for (int j = 0; j < m.columns; ++j)
+    for (int i = 0; i < m.rows; ++i) transposed.entries.push_back(std::move(m.entries[i * m.columns + j]));
+  return transposed;
+}
+
 }  // namespace corank::symbolic

@@ -19,4 +19,7 @@ std::optional<VelocityBlocks> velocity_blocks(const Mechanism& mechanism, Singul
 /// the rows of zeros that are dependencies. Nothing where an entry is no polynomial in them.
 std::optional<PolynomialMatrix> locked_polynomials(const Mechanism& mechanism, SingularitySet set);
 
+/// M of the set's kernel_question(), transposed where its left kernel is asked for. Nothing where an entry is no polynomial.
+std::optional<PolynomialMatrix> singular_matrix(const Mechanism& mechanism, SingularitySet set);
+
 }  // namespace corank::symbolic

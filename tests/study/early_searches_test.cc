@@ -24,7 +24,7 @@ class DextarAhead : public testing::Test {
 
   EarlyTask task(std::size_t k, double sigma = 0.1) const {
     Options options{{.sigma = sigma}};
-    return {questions_[k].set, systems_[k], labelling(questions_[k]), options, {}, k};
+    return {questions_[k].set, systems_[k], labelling(questions_[k], systems_[k]), options, {}, k};
   }
   void expect_answer(std::size_t k, const std::optional<Cover>& found) const {
     ASSERT_TRUE(found);
