@@ -1,4 +1,5 @@
-// Labels of curves that are solved in parts, with an equation in place of a kernel vector, against ranks in doubles: random five-bars, at configurations with a leg or with the distal links in a line, and where both legs are.
+// Labels of curves that are solved in parts, with an equation in place of a kernel vector, against ranks in doubles:
+// random five-bars, at configurations with a leg or with the distal links in a line, and where both legs are.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
