@@ -87,8 +87,8 @@ ReadView read_one(const std::string& path) {
   auto [result, model, system] = result::read_to_show(path);
   const std::size_t uncut = study::is_whole(result) ? result.cover.boxes.size() : 0;
   if (uncut > 0) result = study::cut_for_page(result, {.threads = 0}, report::kPageBoxes, {});
-  const bool given = model.has_own_velocity_equation();
-  ReadView read{path, std::move(model), report::set_view(std::move(result), std::move(system), given)};
+  report::SetView view = report::set_view(model, std::move(result), std::move(system));
+  ReadView read{path, std::move(model), std::move(view)};
   if (uncut > 0) note_cut(uncut, read.view);
   return read;
 }

@@ -117,7 +117,7 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
   System system =
       systems.parts.front().part ? result::system_of(question.model, result) : std::move(systems.of_parts.front());
   const solve::Control of_view(limits_of_set);
-  report::SetView view = report::set_view(std::move(result), std::move(system), question.model.has_own_velocity_equation(),
+  report::SetView view = report::set_view(question.model, std::move(result), std::move(system),
                                           [&] { return of_view.overdue() || Interrupt::stop(); });
   if (uncut > 0) note_cut(uncut, view);
   return view;

@@ -106,7 +106,6 @@ class Searches {
     study::Question question = plan.question;
     question.set = symbolic::singularity_set_from_string(command_.search.sets[set]);
     const System& system = plan.systems[set];
-    const bool given = question.model.has_own_velocity_equation();
     const study::Options options = options_of(command_, plan, set);
     ProgressLine line(task);
     line.show(task);  // searches may be too short to tell more
@@ -115,11 +114,11 @@ class Searches {
     const solve::Control::Limits limits = command_.search.limits_beside(options.search, taken);
     const bool has_room = limits.memory == 0 || limits.memory > study::EarlySearches::kBytes;  // or it may have been ended
     if (early && has_room)
-      return report::set_view(study::describe(question, system, options, std::move(*early), {}), system, given,
+      return report::set_view(question.model, study::describe(question, system, options, std::move(*early), {}), system,
                               std::move(components_[number]));
     solve::Control control(limits);
     line.follow(control);
-    return report::set_view(study::answer(question, system, options, control), system, given,
+    return report::set_view(question.model, study::answer(question, system, options, control), system,
                             [&control] { return control.overdue(); });
   }
 

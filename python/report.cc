@@ -26,7 +26,7 @@ std::vector<report::SetView> views_of(const symbolic::Mechanism& mechanism, cons
   std::vector<report::SetView> views;
   for (const Result& r : results) {
     System system = result::system_of(mechanism, *r);
-    views.push_back(report::set_view(r.on_page(), std::move(system), mechanism.has_own_velocity_equation()));
+    views.push_back(report::set_view(mechanism, r.on_page(), std::move(system)));
     if (study::is_whole(*r)) say_cut(r->cover.boxes.size(), views.back());
   }
   return views;

@@ -155,7 +155,7 @@ py::tuple verify(const Result& r, int threads, const py::object& progress) {
 // What a report says of a set, in words.
 py::dict words(const Result& r) {
   const symbolic::Mechanism mechanism = result::model_of(*r);
-  const report::SetWords w = report::set_view(mechanism, *r).words;
+  const report::SetWords w = report::set_words(*r, report::components(*r), mechanism.has_own_velocity_equation());
   py::dict dict;
   dict["title"] = w.title;
   dict["meaning"] = w.meaning;

@@ -167,7 +167,7 @@ class Answer {
     if (!coarse || !request_.fine) complete_ = complete_ && result.cover.complete();
     System system =
         found.systems.parts.front().part ? result::system_of(question_.model, result) : found.systems.of_parts.front();
-    found.view = report::set_view(std::move(result), std::move(system), question_.model.has_own_velocity_equation(),
+    found.view = report::set_view(question_.model, std::move(result), std::move(system),
                                   [&] { return control.overdue() || stop_.load(); });
     news_.push_back(set);
   }

@@ -110,7 +110,8 @@ bool moves(const symbolic::Mechanism& mechanism) {
 /// can be drawn.
 Json kernel_columns(const symbolic::Mechanism& mechanism, const symbolic::Derivation& derivation, const SetView& view) {
   Json columns = Json::array();
-  if (view.result.options.kernel != to_string(symbolic::KernelSide::right) || view.set->of_requirements) return columns;
+  const bool is_right = view.result.options.kernel == to_string(symbolic::KernelSide::right) || view.locked;
+  if (!is_right || view.set->of_requirements) return columns;
   const bool given = derivation.velocity.given;
   if (given && !moves(mechanism)) return columns;
   for (const std::string& name : derivation.velocity.without(view.set->locked).columns)
@@ -133,6 +134,14 @@ Json motions(const SetView& view) {
   for (std::size_t i = 0; i < boxes.size(); ++i)
     if (boxes[i].motion >= 0) list[boxes[i].motion]["boxes"].push_back(i);
   return list;
+}
+
+// Of the parts, and which part each box is of; nothing where these are too many, or boxes of several are drawn as one.
+Json conditions(const SetView& view) {
+  constexpr std::size_t kMostParts = 255;
+  if (view.conditions.empty() || view.conditions.size() > kMostParts || !view.hulls.empty()) return {};
+  return {{"of", byte_payload(view.drawn(), [](const CoverBox& b) { return b.part; })},
+          {"equations", each(view.conditions, [](const std::vector<Polynomial>& list) { return polynomials(list); })}};
 }
 
 // The variables that no part's boxes have sides for.
@@ -164,6 +173,8 @@ Json set_of(const symbolic::Mechanism& mechanism, const symbolic::Derivation& de
               {"columns", columns},
               {"scales", kernel_scales(result, columns.size())},
               {"equations", polynomials(view.system.equations)},
+              {"conditions", conditions(view)},
+              {"kernel", view.locked && !columns.empty() ? polynomials(view.locked->entries) : Json()},
               {"points", points(result)},
               {"motions", motions(view)}});
   return set;

@@ -11,6 +11,7 @@
 #include "corank/result/values/tallies.h"
 #include "corank/result/values/words.h"
 #include "corank/symbolic/model/model_error.h"
+#include "corank/symbolic/sets/velocity_blocks.h"
 
 namespace corank::report {
 
@@ -44,17 +45,52 @@ bool say_cut(std::size_t uncut, SetView& view) {
   return is_cut;
 }
 
-SetView set_view(result::Result result, System system, bool given_velocity_equation, const Ended& ended) {
-  Components found = components(result, ended);
-  return set_view(std::move(result), std::move(system), given_velocity_equation, std::move(found));
+namespace {
+
+// Without those in variables that the set's boxes have no sides for, such as multipliers.
+std::vector<Polynomial> conditions_of(const System& part, const System& whole) {
+  std::vector<Polynomial> list;
+  for (Polynomial f : part.equations) {
+    bool is_of_whole = true;
+    for (Monomial& m : f.monomials)
+      for (Factor& x : m.factors) {
+        x.variable = whole.find(part.variables[x.variable].name);
+        is_of_whole = is_of_whole && x.variable >= 0;
+      }
+    const auto same = [&](const Polynomial& g) { return g.source == f.source; };
+    if (is_of_whole && std::ranges::none_of(whole.equations, same)) list.push_back(std::move(f));
+  }
+  return list;
 }
 
-SetView set_view(result::Result result, System system, bool given_velocity_equation, Components found) {
+// What draws a set in parts as other sets are drawn: on the set, with the velocity that is left.
+void add_conditions(const symbolic::Mechanism& mechanism, SetView& view) {
+  if (view.result.parts.empty()) return;
+  try {
+    for (const System& part : result::systems_of_parts(mechanism, view.result))
+      view.conditions.push_back(conditions_of(part, view.system));
+    if (view.set->has_kernel() && !view.set->of_parts && !view.set->of_requirements)
+      view.locked = symbolic::locked_polynomials(mechanism, *view.set->set);
+  } catch (const symbolic::ModelError&) {  // a picture without them is one as well
+    view.conditions.clear();
+  }
+}
+
+}  // namespace
+
+SetView set_view(const symbolic::Mechanism& mechanism, result::Result result, System system, const Ended& ended) {
+  Components found = components(result, ended);
+  return set_view(mechanism, std::move(result), std::move(system), std::move(found));
+}
+
+SetView set_view(const symbolic::Mechanism& mechanism, result::Result result, System system, Components found) {
   const symbolic::SetDefinition& set = symbolic::definition(result.set);
-  SetWords words = set_words(result, found, given_velocity_equation);
+  SetWords words = set_words(result, found, mechanism.has_own_velocity_equation());
   std::vector<CoverBox> hulls;
   if (const std::size_t in_one = boxes_in_one(result, found); in_one > 1) hulls = hulls_of(result, in_one);
-  return {std::move(result), &set, std::move(system), std::move(found), std::move(words), std::move(hulls)};
+  SetView view{std::move(result), &set, std::move(system), std::move(found), std::move(words), {}, {}, std::move(hulls)};
+  add_conditions(mechanism, view);
+  return view;
 }
 
 SetView set_view(const symbolic::Mechanism& mechanism, result::Result result) {
@@ -70,7 +106,7 @@ SetView set_view(const symbolic::Mechanism& mechanism, result::Result result) {
   if (!std::equal(system.variables.begin(), system.variables.end(), result.variables.begin(), result.variables.end(), same))
     throw result::ResultFileError("the result of the set '" + result.set + "' has other variables than the model " +
                                   mechanism.name());
-  return set_view(std::move(result), std::move(system), mechanism.has_own_velocity_equation());
+  return set_view(mechanism, std::move(result), std::move(system));
 }
 
 }  // namespace corank::report

@@ -25,7 +25,7 @@ export class Curve {
   knot(box, place) {
     const {set} = this;
     const {x, residual} = ontoSolutions(
-      set.equations,
+      set.equationsOf(box),
       Float64Array.from({length: set.size}, (_, j) => set.middle(box, j)),
     );
     return residual < 1e-9 ? [{x, box, place}] : [];
@@ -66,9 +66,15 @@ export class Curve {
     const [a, b] = [this.knots[k - 1], this.knots[k] ?? this.knots[k - 1]];
     const share = b.t > a.t ? Math.min(1, Math.max(0, (t - a.t) / (b.t - a.t))) : 0;
     const between = a.x.map((x, j) => x + share * (b.x[j] - x));
-    const {x, residual} = ontoSolutions(this.set.equations, between);
+    const {x, residual} = ontoSolutions(this.equationsBetween(a.box, b.box), between);
     const good = residual < 1e-9 && this.distance(x, between) <= this.distance(a.x, b.x) + 1e-6;
     return {set: this.set, box: this.boxOf(good ? x : between, a, b), x: good ? x : between, residual, moved: good};
+  }
+
+  // Boxes that touch may be of two parts of the set.
+  equationsBetween(a, b) {
+    const {parts, equations} = this.set;
+    return parts && parts[a] !== parts[b] ? equations : this.set.equationsOf(a);
   }
 
   // The box, of those from one knot to the next, that the configuration is least outside of.

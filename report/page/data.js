@@ -24,10 +24,16 @@ export class BoxSet {
     this.bounds = bounds;
     this.verdicts = verdicts;
     this.types = bytesOfBase64(description.types || "");
+    this.parts = description.conditions && bytesOfBase64(description.conditions.of);
     if (description.passage) {
       this.passages = bytesOfBase64(description.passage.of);
       this.sides = floatsOf(bytesOfBase64(description.passage.sides));
     }
+  }
+  // Those of the set, and of the part that the box is of.
+  equationsOf(box) {
+    const own = this.parts ? this.conditions.equations[this.parts[box]] : [];
+    return own?.length ? [...this.equations, ...own] : this.equations;
   }
   // Of a workspace boundary: "unproven", "barrier" or "traversable"; of another set undefined.
   passageOf(box) {

@@ -1,5 +1,6 @@
 // The gallery's page: draws each robot where the page has its configuration.
 import {drawMechanism, drawingWindow} from "./mechanism.js";
+import {kernelVector} from "./newton.js";
 import {followTheme, takeTheme} from "./theme.js";
 import {coordinateValues} from "./values.js";
 
@@ -8,7 +9,8 @@ function kernelRates(model, x) {
   const set = model.sets[0];
   if (!set || set.columns.length === 0) return null;
   const names = model.rates || model.coordinates.map(({name}) => name);
-  return Object.fromEntries(set.columns.map((column, k) => [names[column], set.scales[k] * x[set.configuration + k]]));
+  const xi = kernelVector(set, x);
+  return Object.fromEntries(set.columns.map((column, k) => [names[column], set.scales[k] * xi[k]]));
 }
 
 // The drawing without the points that only give a hinge its direction, and are far from the robot.

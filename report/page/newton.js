@@ -86,17 +86,39 @@ export function ontoSolutions(equations, start, scales = start.map(() => 1)) {
   return {x, residual};
 }
 
+// ξ at x: of a set with a kernel vector a part of x, of one in parts the vector that M shortens most, M ξ ≈ 0, by inverse iteration.
+export function kernelVector(set, x) {
+  const n = set.columns.length;
+  if (!set.kernel) return Array.from({length: n}, (_, k) => x[set.configuration + k]);
+  const values = set.kernel.map((entry) => evaluatePolynomial(entry, x, new Float64Array(x.length)));
+  const square = new Float64Array(n * n);
+  let trace = 0;
+  for (let i = 0; i < n; ++i) {
+    for (let j = 0; j < n; ++j) {
+      for (let row = 0; row < values.length; row += n) square[i * n + j] += values[row + i] * values[row + j];
+    }
+    trace += square[i * n + i];
+  }
+  for (let i = 0; i < n; ++i) square[i * n + i] += 1e-12 * (trace / n + 1e-300);
+  let xi = Float64Array.from({length: n}, (_, k) => 1 / (1 + k));
+  for (let round = 0; round < 3; ++round) {
+    solveSymmetric(square.slice(), xi, n);
+    const length = Math.hypot(...xi);
+    xi = xi.map((value) => value / length);
+  }
+  return xi;
+}
+
 // A point of the set in a box, from its middle.
 export function pointOfBox(set, box) {
-  return solvedFrom(set, box, set.equations) ?? {x: middleOf(set, box), residual: NaN, moved: false};
+  return solvedFrom(set, box, set.equationsOf(box)) ?? {x: middleOf(set, box), residual: NaN, moved: false};
 }
 
 // The same in the first of the boxes that has one where the conditions, more equations, hold; if none has, anywhere in the first box.
 export function pointOfBoxes(set, boxes, conditions) {
   if (conditions.length > 0) {
-    const equations = [...set.equations, ...conditions];
     for (const box of boxes) {
-      const point = solvedFrom(set, box, equations);
+      const point = solvedFrom(set, box, [...set.equationsOf(box), ...conditions]);
       if (point) return {box, ...point};
     }
   }

@@ -1,7 +1,7 @@
 // The panel beside the portraits: the mechanism at the configuration that is pointed at or pinned, the assembly modes over that
 // place, and what is known of it.
 import {mechanismPicture} from "./mechanism_picture.js";
-import {pointOfBoxes} from "./newton.js";
+import {kernelVector, pointOfBoxes} from "./newton.js";
 import {Player} from "./player.js";
 import {coordinateTable, coordinateValues, groupedText, isAngle} from "./values.js";
 
@@ -140,8 +140,12 @@ export class Panel {
   velocity(set, x) {
     if (set.columns.length === 0) return null;
     const names = this.model.rates || this.model.coordinates.map(({name}) => name);
-    const rates = {};
-    set.columns.forEach((column, k) => (rates[names[column]] = set.scales[k] * x[set.configuration + k]));
+    const rates = {},
+      xi = kernelVector(set, x);
+    set.columns.forEach((column, k) => (rates[names[column]] = set.scales[k] * xi[k]));
+    const along = Object.entries(rates).reduce((sum, [name, rate]) => sum + rate * (this.rates?.[name] ?? 0), 0);
+    if (along < 0) for (const name in rates) rates[name] *= -1; // −ξ is one as well: arrows shall not turn round
+    this.rates = rates;
     return rates;
   }
 

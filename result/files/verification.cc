@@ -292,6 +292,20 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   return system;
 }
 
+std::vector<System> systems_of_parts(const symbolic::Mechanism& mechanism, const Result& result) {
+  std::vector<System> systems;
+  if (result.parts.empty()) return systems;
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  if (!set) throw ResultFileError("the result's model has no set '" + result.set + "'");
+  const std::vector<symbolic::SetPart> parts = parts_of(mechanism, *set, result.parts);
+  for (const Result& part : result.parts) {
+    const auto own = std::ranges::find_if(parts, [&](const symbolic::SetPart& p) { return is_about(p, part); });
+    if (own == parts.end()) throw ResultFileError("the result's model has no part '" + part.part + "'");
+    systems.push_back(compiled(mechanism, *set, *own, part));
+  }
+  return systems;
+}
+
 symbolic::SetPart part_of(const symbolic::Mechanism& mechanism, const Result& result) {
   if (const auto set = symbolic::singularity_set_from_string(result.set); set && !result.part.empty())
     for (symbolic::SetPart& part : parts_of(mechanism, *set, std::span(&result, 1)))

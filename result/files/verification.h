@@ -39,6 +39,9 @@ System system_of(const Result& result);
 /// The same for its model, model_of(result), made before.
 System system_of(const symbolic::Mechanism& model, const Result& result);
 
+/// Of each part of a result; none where it has no parts. Throws as system_of().
+std::vector<System> systems_of_parts(const symbolic::Mechanism& model, const Result& result);
+
 /// The part of its model's set that a result is about, with outputs where it has these. Throws ResultFileError where there
 /// is none.
 symbolic::SetPart part_of(const symbolic::Mechanism& model, const Result& result);

@@ -278,7 +278,7 @@ TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   result.cover.decimals = {{"-0.60", "0.71", "0.71", "0.00"}, {}};
   result.cover.points[0].point = 0;
   result.cover.points[1].point = -1;
-  const std::string html = points_html({set_view(result, {}, false)});
+  const std::string html = points_html({set_view(slider(), result, System())});
   EXPECT_THAT(
       html,
       HasSubstr("<td><math><mfrac><mrow><mn>3</mn></mrow><mrow><mn>5</mn></mrow></mfrac></math> <small>−0.60</small></td>"));
@@ -287,7 +287,7 @@ TEST(PointsTable, ShowsExactValuesDecimalsAndBoundsAsFarAsTheyAreKnown) {
   EXPECT_THAT(html, HasSubstr("<td>2</td></tr>")) << "the dimension of the kernel";
   result.cover.exact_points[0].lower = 3;
   result.cover.exact_points[0].upper = 4;
-  EXPECT_THAT(points_html({set_view(result, {}, false)}), HasSubstr("a number of degree 2"))
+  EXPECT_THAT(points_html({set_view(slider(), result, System())}), HasSubstr("a number of degree 2"))
       << "what a file says may define none";
 }
 
