@@ -9,9 +9,8 @@
 #include <map>
 #include <numbers>
 
-#include "corank/certify/angle.h"
+#include "corank/analyze/postures/posture_parts.h"
 #include "corank/core/check.h"
-#include "corank/kinematics/equations/six_joints.h"
 #include "corank/solve/search/solve.h"
 #include "corank/symbolic/algebra/exact_value.h"
 #include "corank/symbolic/model/expression_words.h"
@@ -26,33 +25,7 @@ namespace {
 using symbolic::Expression;
 using symbolic::ModelError;
 
-constexpr double kFine = 1e-10;  // σ of a posture: what follows from it is to have many digits
-constexpr std::uint64_t kMostToNarrow = 10'000;
-
 Expression number(const ExactNumber& x) { return symbolic::parse_expression(x.text(), "number"); }
-
-// Boxes that hold one solution each, as narrow as doubles make them, or nearly; as they are where that search says anything
-// else.
-std::vector<CoverBox> narrowed(solve::Prepared prepared, const std::vector<CoverBox>& isolated,
-                               const solve::Control& control) {
-  if (isolated.empty()) return isolated;  // no roots would be all of the domain
-  prepared.options.sigma = std::max(kFine, solve::smallest_sigma(prepared.system).largest());
-  for (const CoverBox& point : isolated) prepared.options.roots.push_back(point.box);
-  solve::Control own(control.rest(0, kMostToNarrow));
-  Cover cover = solve::solve(prepared, own);
-  const bool same = cover.points.size() == isolated.size() && std::ranges::all_of(cover.points, [](const CoverBox& point) {
-                      return point.verdict == Verdict::isolated;
-                    });
-  return same ? std::move(cover.points) : isolated;
-}
-
-Interval whole_turn() { return {-std::numbers::pi, std::nextafter(std::numbers::pi, 4.0)}; }
-
-Interval range_of(const symbolic::Mechanism& model, const std::string& name, const Expression& lower,
-                  const Expression& upper) {
-  return Interval::hull(symbolic::exact_value(model, lower, name).enclose(),
-                        symbolic::exact_value(model, upper, name).enclose());
-}
 
 }  // namespace
 
@@ -78,43 +51,6 @@ std::optional<int> Postures::at_most() const {
   if (!complete || !families.empty()) return std::nullopt;
   return static_cast<int>(found.size());
 }
-
-struct PostureFinder::Parts {
-  PostureQuestion question;
-  std::optional<std::size_t> hand;  // the link whose orientation is given, in the robot
-  std::size_t turned = 0;           // the output that has it
-  // Of an output of the hand: the components of its position among the given coordinates, and its point in the hand's frame.
-  std::optional<std::array<std::size_t, 3>> position;
-  std::array<Expression, 3> hand_point{0, 0, 0};
-  std::optional<kinematics::SixJoints> six;
-  std::vector<std::string> names;
-  int freedom = 0;  // by the numbers of coordinates, equations and values
-
-  const kinematics::Robot* robot() const {
-    return question.question.assembly ? question.question.assembly->robot.get() : nullptr;
-  }
-  bool is_whole_pose() const { return hand && position && question.given.size() == 3; }
-  ModelError error(const std::string& problem, const std::string& expected) const {
-    return question_error(question.question, problem, expected);
-  }
-  void find_hand();
-  void find_position();
-  void find_names();
-
-  using Values = std::vector<Expression>;
-  std::array<Expression, 3> origin_at(const Values& values, const Rotation& orientation) const;
-  symbolic::Mechanism six_held(const Values& values, const Rotation& orientation) const;
-  symbolic::Mechanism hand_held(const Values& values, const Rotation& orientation) const;
-  /// Nothing where a value is outside its range.
-  std::optional<symbolic::Mechanism> coordinates_held(const Values& values,
-                                                      const std::optional<Rotation>& orientation) const;
-  /// With these values. Nothing where one is outside its range.
-  std::optional<symbolic::Mechanism> model_at(const Values& asked, const std::optional<Rotation>& turn) const;
-  std::vector<CoordinateValue> values_of(const System& system, const Box& box) const;
-  void include(const System& system, const Box& box, PostureFamily& family) const;
-  void take(const solve::Prepared& prepared, const Cover& cover, const solve::Control& control, Postures& result) const;
-  static bool is_in_range(const symbolic::Mechanism& model, const std::string& name, const Expression& value);
-};
 
 void PostureFinder::Parts::find_hand() {
   const std::string expected = "a robot from parts, one link of which has its pose or its orientation in space as output";
@@ -168,6 +104,25 @@ void PostureFinder::Parts::find_position() {
   }
 }
 
+// All values beside the position are those of joints that can be held.
+void PostureFinder::Parts::find_locked() {
+  kinematics::Robot held = *robot();
+  std::vector<std::pair<std::size_t, std::size_t>> list;
+  for (std::size_t k = 0; k < question.given.size(); ++k) {
+    if (std::ranges::count(*position, k) > 0) continue;
+    const int joint = held.find_joint(question.given[k]);
+    if (joint < 0 || !held.lock(joint, 0)) return;
+    list.emplace_back(joint, k);
+  }
+  locked = std::move(list);
+}
+
+kinematics::Robot PostureFinder::Parts::robot_at(const Values& values) const {
+  kinematics::Robot held = *robot();
+  for (const auto& [joint, k] : locked) held.lock(joint, values[k]);
+  return held;
+}
+
 void PostureFinder::Parts::find_names() {
   const symbolic::Mechanism& model = question.question.model;
   const auto is_free = [&](const std::string& name) {
@@ -203,8 +158,9 @@ PostureFinder::PostureFinder(PostureQuestion question) {
   if (p.question.orientation) {
     p.find_hand();
     p.find_position();
+    if (p.position) p.find_locked();
   }
-  if (p.is_whole_pose()) p.six = kinematics::six_joints(*p.robot(), *p.hand);
+  if (p.is_whole_pose() && p.locked.empty()) p.six = kinematics::six_joints(*p.robot(), *p.hand);
   p.find_names();
   parts_ = std::move(parts);
 }
@@ -236,7 +192,7 @@ symbolic::Mechanism PostureFinder::Parts::six_held(const Values& values, const R
 }
 
 symbolic::Mechanism PostureFinder::Parts::hand_held(const Values& values, const Rotation& orientation) const {
-  kinematics::Robot held = *robot();
+  kinematics::Robot held = robot_at(values);
   std::erase_if(held.outputs, [&](const kinematics::Output& o) { return o.link == *hand; });
   held.fix(held.links[0].name, held.links[*hand].name, {orientation, origin_at(values, orientation)});
   return kinematics::assemble(held).mechanism;
@@ -269,30 +225,6 @@ bool PostureFinder::Parts::is_in_range(const symbolic::Mechanism& model, const s
   return at.hi() - turns >= range.lo() && at.lo() - turns <= range.hi();
 }
 
-std::vector<CoordinateValue> PostureFinder::Parts::values_of(const System& system, const Box& box) const {
-  const std::vector<CoordinateValue> all = coordinate_values(system, box);
-  if (!six) {
-    std::vector<CoordinateValue> values;
-    for (const std::string& name : names) {
-      const auto found = std::ranges::find(all, name, &CoordinateValue::name);
-      values.push_back({name, found == all.end() ? Interval::whole() : found->value});
-    }
-    return values;
-  }
-  std::vector<CoordinateValue> joints;
-  for (const kinematics::SixJoints::Angle& angle : six->angles) {
-    if (!angle.coordinate.empty()) {
-      joints.push_back(*std::ranges::find(all, angle.coordinate, &CoordinateValue::name));
-      continue;
-    }
-    const Interval range =
-        angle.range ? range_of(six->mechanism, angle.joint, angle.range->lower, angle.range->upper) : whole_turn();
-    joints.push_back(
-        {angle.joint, certify::angle_enclosure(box[system.find(angle.cosine)], box[system.find(angle.sine)], range)});
-  }
-  return joints;
-}
-
 std::vector<std::string> PostureFinder::names() const { return parts_->names; }
 
 bool PostureFinder::is_angle(const std::string& name) const {
@@ -314,6 +246,8 @@ std::optional<symbolic::Mechanism> PostureFinder::Parts::model_at(const Values& 
     for (auto& row : *orientation)
       for (Expression& e : row) e = exact(e, "the orientation");
   if (!is_whole_pose()) return coordinates_held(values, orientation);
+  for (const auto& [joint, k] : locked)
+    if (!is_in_range(question.question.model, question.given[k], values[k])) return std::nullopt;
   return six ? six_held(values, *orientation) : hand_held(values, *orientation);
 }
 
@@ -325,55 +259,15 @@ symbolic::Mechanism PostureFinder::equations(const std::vector<Expression>& valu
   return p.six_held(values, orientation);
 }
 
-void PostureFinder::Parts::include(const System& system, const Box& box, PostureFamily& family) const {
-  const std::vector<CoordinateValue> at = values_of(system, box);
-  if (family.values.empty()) family.values = at;
-  for (std::size_t k = 0; k < at.size(); ++k) family.values[k].value = Interval::hull(family.values[k].value, at[k].value);
-}
-
-void PostureFinder::Parts::take(const solve::Prepared& prepared, const Cover& cover, const solve::Control& control,
-                                Postures& result) const {
-  const System& system = prepared.system;
-  std::vector<CoverBox> isolated;
-  for (const CoverBox& point : cover.points) {
-    if (point.verdict == Verdict::isolated) {
-      isolated.push_back(point);
-    } else if (point.verdict == Verdict::exact || point.verdict == Verdict::boundary) {
-      result.found.push_back({values_of(system, point.box), point.verdict == Verdict::exact});
-    } else {
-      include(system, point.box, result.families.emplace_back());
-    }
-  }
-  for (const CoverBox& point : narrowed(prepared, isolated, control)) result.found.push_back({values_of(system, point.box)});
-  std::ranges::sort(result.found, {}, [](const Posture& posture) {
-    std::vector<double> middle;
-    for (const CoordinateValue& v : posture.values) middle.push_back(v.value.mid());
-    return middle;
-  });
-  // Undecided boxes along a set are no points.
-  const bool in_points =
-      std::ranges::any_of(cover.points, [](const CoverBox& point) { return point.verdict == Verdict::undecided; });
-  std::map<int, PostureFamily> families;  // by their self-motion
-  std::optional<PostureFamily> undecided;
-  for (const CoverBox& box : cover.boxes) {
-    if (!in_points && (box.verdict == Verdict::undecided || box.verdict == Verdict::partial)) {
-      if (!undecided) undecided.emplace().dimension = cover.observed_dimension;
-      include(system, box.box, *undecided);
-    }
-    if (box.free.empty()) continue;
-    PostureFamily& family = families[box.motion];
-    family.dimension = static_cast<int>(box.free.size());
-    family.proven = family.proven || box.verdict == Verdict::regular || box.verdict == Verdict::exact;
-    include(system, box.box, family);
-  }
-  for (auto& [motion, family] : families) result.families.push_back(std::move(family));
-  if (undecided) result.families.push_back(std::move(*undecided));
-}
-
 Postures PostureFinder::find(const std::vector<Expression>& values, const std::optional<Rotation>& orientation,
                              solve::Control& control, int threads) const {
   const auto start = std::chrono::steady_clock::now();
-  const Parts& p = *parts_;
+  std::optional<Parts> of_locked;
+  if (!parts_->locked.empty()) {
+    of_locked = *parts_;
+    of_locked->six = kinematics::six_joints(parts_->robot_at(values), *parts_->hand);
+  }
+  const Parts& p = of_locked ? *of_locked : *parts_;
   CORANK_CHECK(values.size() == p.question.given.size() && orientation.has_value() == p.question.orientation);
   Postures result;
   const std::optional<symbolic::Mechanism> model = p.model_at(values, orientation);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "corank/kinematics/robot/vectors.h"
+
 namespace corank::kinematics {
 namespace {
 
@@ -84,6 +86,58 @@ Joint& Robot::fix(const std::string& first, const std::string& second, const Pos
   Joint& joint = join(JointKind::fixed, first + "_" + second, first, {0, 0, 0}, {0, 0, 0}, second, {0, 0, 0}, {0, 0, 0});
   joint.pose = pose;
   return joint;
+}
+
+namespace {
+
+Vector unit(const Vector& v) {
+  const Expression square = dot(v, v);
+  if (is_literal_one(square)) return v;
+  const Expression length = symbolic::sqrt(square);
+  return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+// One that is perpendicular to it; nothing where that takes more than a look.
+std::optional<Vector> zero_of(const Vector& axis) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (is_literal_zero(axis[(i + 1) % 3]) && is_literal_zero(axis[(i + 2) % 3])) {
+      Vector zero{0, 0, 0};
+      zero[(i + 1) % 3] = 1;
+      return zero;
+    }
+  return std::nullopt;
+}
+
+// With the axis as z and the zero as x, in the frame of the end's link.
+Pose frame_of(const JointEnd& end, const Vector& zero) {
+  const Vector z = unit(end.axis), along = {folded_product(dot(zero, z), z[0]), folded_product(dot(zero, z), z[1]),
+                                            folded_product(dot(zero, z), z[2])};
+  const Vector x = unit(zero - along), y = cross(z, x);
+  Pose frame;
+  for (std::size_t i = 0; i < 3; ++i) frame.rotation[i] = {x[i], y[i], z[i]};
+  frame.translation = end.point;
+  return frame;
+}
+
+}  // namespace
+
+bool Robot::lock(std::size_t index, const Expression& value) {
+  Joint& joint = joints[index];
+  const bool turns = joint.kind == JointKind::revolute;
+  if ((!turns && joint.kind != JointKind::prismatic) || is_coupled(index) || is_output(index)) return false;
+  std::array<std::optional<Vector>, 2> zeros{joint.ends[0].zero, joint.ends[1].zero};
+  if (!zeros[0] || !zeros[1]) {  // then the axes are the same in both frames
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!symbolic::same_tree(joint.ends[0].axis[i], joint.ends[1].axis[i])) return false;
+    zeros[0] = zeros[1] = zero_of(joint.ends[0].axis);
+    if (!zeros[0]) return false;
+  }
+  const Pose moved = turns ? rotation(2, value) : translation({0, 0, value});
+  joint.pose = frame_of(joint.ends[0], *zeros[0]) * moved * inverse(frame_of(joint.ends[1], *zeros[1]));
+  joint.kind = JointKind::fixed;
+  joint.ranges.clear();
+  joint.actuated = false;
+  return true;
 }
 
 }  // namespace corank::kinematics

@@ -192,6 +192,9 @@ struct Robot {
   Joint& rod(const std::string& name, const std::string& first, const Vector& point, const std::string& second,
              const Vector& second_point, const std::optional<Expression>& length);
   Joint& fix(const std::string& first, const std::string& second, const Pose& pose);
+  /// Holds a revolute or prismatic joint where its coordinate has this value. False, and nothing is changed, for others, for
+  /// joints that are coupled or outputs, and where both ends lack a zero and the axis is not along a frame's.
+  bool lock(std::size_t joint, const Expression& value);
 
   /// Throws ModelError, with the place, for: no links; names that are taken; a joint of a link with itself or with a link
   /// that is not there; an axis or a zero direction that is 0, a zero along the axis; a range that is empty, or too many of

@@ -39,13 +39,15 @@ export class BoxSet {
   passageOf(box) {
     return this.passages && PASSAGES[this.passages[box]];
   }
-  // From a barrier to where the output is kept, in the units of two outputs; null where that is not known of these axes.
+  // From a barrier to where the output is kept, in the units of two outputs; null where that is not known of these axes, or points out
+  // of their plane: what is seen then is no outline.
   sideOf(box, axes) {
     if (this.passageOf(box) !== "barrier") return null;
     const {outputs} = this.passage;
     const places = axes.map(({name}) => outputs.indexOf(name));
     const side = places.map((j) => (j < 0 ? NaN : this.sides[outputs.length * box + j]));
-    return Math.hypot(...side) > 0 ? side : null;
+    const all = this.sides.subarray(outputs.length * box, outputs.length * (box + 1));
+    return Math.hypot(...side) > 0.95 * Math.hypot(...all) ? side : null;
   }
   // The types of singularity that are proven of a box.
   typesOf(box) {

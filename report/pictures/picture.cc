@@ -164,9 +164,11 @@ void add_passages(const PictureSource& source, const SetStyle& style, const std:
   }
 }
 
-// Strokes to the sides where barriers keep the output from going, in a picture of two of its coordinates.
+// Strokes to the sides where barriers keep the output from going, in a picture of two of its coordinates. Of more than two
+// only where that side is nearly in the picture's plane, as at the outline of what is seen.
 void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coordinates,
                  const std::vector<std::string>& axes, std::vector<PictureHatch>& hatches) {
+  constexpr double kInPlane = 0.95;
   std::array<std::size_t, 2> place{};
   for (std::size_t j = 0; j < 2; ++j) {
     const auto at = std::ranges::find(source.outputs, axes[j]);
@@ -180,7 +182,9 @@ void add_hatches(const PictureSource& source, const std::vector<Coordinate>& coo
       hatch.from[j] = coordinates[j].values(source.box(k), 0).front().mid();
       hatch.direction[j] = -source.sides[k][place[j]];
     }
-    hatches.push_back(hatch);
+    double square = 0;
+    for (const double s : source.sides[k]) square += s * s;
+    if (std::hypot(hatch.direction[0], hatch.direction[1]) >= kInPlane * std::sqrt(square)) hatches.push_back(hatch);
   }
 }
 
