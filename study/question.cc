@@ -41,6 +41,10 @@ enum class Components { no, if_simple, yes };
 // `free`: of the model, if it was asked for.
 Components components_wanted(const Question& q, std::optional<std::optional<symbolic::FreeCoordinates>>& free) {
   const symbolic::SetDefinition& set = definition(q.set);
+  if (set.is_cspace()) {
+    constexpr long kManyJoints = 5;
+    return q.in_parts.value_or(true) && symbolic::mobility(q.model) >= kManyJoints ? Components::yes : Components::no;
+  }
   if (!set.has_kernel() || set.locked.empty() || set.type || q.kernel || q.corank != 1) return Components::no;
   if (q.in_parts) return *q.in_parts ? Components::yes : Components::no;
   // These can be assembled in several ways, which meet at configurations whose kernels have larger dimensions.

@@ -101,7 +101,7 @@ class PieceCounter {
     const auto unresolved =
         std::ranges::count_if(parts_.cells().cells(), [](const SignCell& cell) { return !cell.resolved; });
     if (unresolved > 0) {
-      result.reason = std::to_string(unresolved) + " cells next to singularities that are not resolved";
+      result.reason = symbolic::counted(unresolved, "cell") + " next to singularities that are not resolved";
       return;
     }
     bool hidden = false;

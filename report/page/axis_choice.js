@@ -1,7 +1,7 @@
 // Which coordinates a page's pictures are over at first.
 import {isAngle} from "./values.js";
 
-// Outputs, inputs, passive coordinates; then those that all sets leave out, or that hardly move beside others of their kind.
+// Outputs, inputs, passive coordinates; then those that all singularities leave out, or that hardly move beside others of their kind.
 // Those of one value are no axes.
 export function axisOrder(model) {
   const rank = {output: 0, input: 1, passive: 2, auxiliary: 3};
@@ -19,7 +19,10 @@ function widthOf({range}) {
 function isLate(model, i) {
   const own = model.coordinates[i],
     variable = own.index ?? own.cosine;
-  if (model.sets.length > 0 && model.sets.every((set) => set.leftOut?.includes(variable))) return true;
+  const drawn = model.sets.filter(({count}) => count > 0),
+    singular = drawn.filter((set) => set.singular),
+    asked = singular.length > 0 ? singular : drawn;
+  if (asked.length > 0 && asked.every((set) => set.leftOut?.includes(variable))) return true;
   const alike = model.coordinates.filter((other) => isAngle(other) === isAngle(own) && other.role === own.role);
   return widthOf(own) < 1e-2 * Math.max(...alike.map(widthOf));
 }

@@ -16,10 +16,14 @@ void show(const FiguresRun& run, const std::string& figure) {
   if (run.show) run.show("figures: " + figure);
 }
 
-// Have all boxes of all sources the same wide side? Sets that leave a coordinate out have, and their picture says nothing.
+// Have all boxes of all singularities, if there are some, the same wide side? Sets that leave a coordinate out have, and
+// their picture says nothing.
 bool is_same_everywhere(const std::vector<PictureSource>& sources, const std::string& name) {
+  const auto is_singular = [](const PictureSource& source) { return symbolic::definition(source.set).is_singular(); };
+  const bool some_singular = std::ranges::any_of(sources, is_singular);
   std::vector<const Interval*> first;
   for (const PictureSource& source : sources) {
+    if (some_singular && !is_singular(source)) continue;
     const auto angle = std::ranges::find(source.angles, name, &Angle::name);
     std::vector<int> own{source.boxes.find(name)};
     if (angle != source.angles.end()) own = {angle->cosine, angle->sine};

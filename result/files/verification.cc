@@ -155,7 +155,8 @@ std::vector<std::string> contradictions_of_parts(const symbolic::Mechanism& mode
   const bool is_boundary = symbolic::definition(result.set).of_parts;
   if (!is_boundary && result.parts.empty()) return {};
   const auto set = symbolic::singularity_set_from_string(result.set);
-  if (!set || !symbolic::definition(set).has_kernel()) return {"the set has no parts"};
+  const symbolic::SetDefinition& asked = symbolic::definition(set);
+  if (!set || !(asked.has_kernel() || asked.is_cspace())) return {"the set has no parts"};
   expected = parts_of(model, *set, result.parts);
   const bool all = std::equal(expected.begin(), expected.end(), result.parts.begin(), result.parts.end(), is_about);
   if (!all || result.parts.empty()) return {"the parts are not those of the model's set"};

@@ -275,10 +275,14 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
   std::map<std::string, std::size_t> reasons;
   std::size_t others = 0;
   std::vector<std::string> of_box;
+  const auto is_left_out = [&](const CoverBox& b, const std::string& coordinate) {
+    return b.part >= 0 && !result.parts.empty() && !has_coordinate(result.parts[b.part], coordinate);
+  };
   certify::visit_contacts(system, result.cover, [&](const CoverBox& b, const std::vector<Contact>& contacts) {
     of_box.clear();
     for (const Contact& contact : contacts) {
       const Thing with = thing(system, result, contact);
+      if (!with.range.empty() && is_left_out(b, with.range)) continue;  // it has its whole range there
       if (!with.range.empty()) ends[with.range] = ends[with.range] || contact.reached;
       if (std::ranges::find(of_box, with.reason) == of_box.end()) of_box.push_back(with.reason);
     }

@@ -91,6 +91,23 @@ std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Compon
   return result;
 }
 
+// C-space of an arm of many joints is the product of their ranges and of what inequalities leave of some. One joint stands
+// in for those that no inequality is about: without a coordinate there is nothing to solve.
+std::vector<Component> space_of_joints(const std::optional<FreeCoordinates>& free) {
+  constexpr long kLeastFree = 5;
+  if (!free) return {};
+  std::vector<std::string> moving;
+  for (const Coordinate& c : free->system.coordinates)
+    if (!is_fixed(c)) moving.push_back(c.name);
+  if (std::ssize(moving) < kLeastFree) return {};
+  Component all;
+  all.name = "every value of the joints";
+  auto factor = mentioned_coordinates(*free, {Expression::symbol(moving.front())});
+  all.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
+  all.joints = names_of(free->system.coordinates);
+  return {std::move(all)};
+}
+
 // Of an arm with a large set in its joints, if that can be done.
 std::vector<Component> components(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended,
                                   const std::optional<FreeCoordinates>* known = nullptr) {
@@ -189,6 +206,7 @@ std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, c
   const auto as_parts = [](auto list) { return std::vector<SetPart>(list.begin(), list.end()); };
   if (definition(set).of_parts) return boundary(mechanism, ended);
   if (definition(set).of_requirements) return as_parts(requirement_parts(mechanism));
+  if (definition(set).is_cspace()) return as_parts(space_of_joints(free != nullptr ? *free : free_coordinates(mechanism)));
   return as_parts(components(mechanism, kernel_question(mechanism, set), ended, free));
 }
 

@@ -35,6 +35,7 @@ std::vector<std::string> joints(const SetPart& part);
 /// Of an arm whose singularities have dimension 3 or more, a part is about the joints alone that its condition or a range
 /// mentions: it is the product of what is found there and of the other joints' ranges, and all other coordinates follow from
 /// the joints (free_coordinates.h). In all coordinates such a set would be too large for boxes.
+/// C-space of an arm of five joints or more is one part, in the joints that an inequality is about.
 /// `free`: free_coordinates(), where somebody has asked for them before.
 std::vector<SetPart> set_parts(const Mechanism& mechanism, SingularitySet set, const Ended& ended = {},
                                const std::optional<FreeCoordinates>* free = nullptr);

@@ -205,6 +205,23 @@ TEST(IdleJoints, OfRandomArmsLoseNothingOfTheBoundary) {
   EXPECT_GT(singular, arms);
 }
 
+// Its C-space is a product; ranges of what the joints give cut nothing off.
+TEST(IdleJoints, AreAllJointsOfAnArmsCspace) {
+  Arm arm = scara();
+  for (int k = 0; k < 2; ++k) arm.rows.push_back({90, 0.1, 0.2, false, -100, 100});
+  const result::Result result = answer_to(arm, symbolic::SingularitySet::cspace);
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_EQ(result.cover.dimension, 6);
+  EXPECT_EQ(result.cover.count(Verdict::undecided), 0u);
+  EXPECT_LT(result.cover.statistics.processed, 100u);
+  EXPECT_THAT(result.free_coordinates, testing::UnorderedElementsAre("q1", "q2", "q3", "q4", "q5", "q6"));
+  for (const result::DomainNotes::Reason& reason : result.domain.boundary) EXPECT_EQ(reason.text, "range of q1");
+  RandomArm random(1);
+  random.arm = arm;
+  for (int k = 0; k < 100; ++k) EXPECT_TRUE(holds(result, arm, random.configuration()));
+  EXPECT_TRUE(result::verify(result).verified());
+}
+
 // A set in the joints alone says nothing of the outputs until it is drawn.
 TEST(IdleJoints, OfAScaraStayOutOfThePictureOfItsSingularities) {
   const result::Result whole = answer_to(scara(), symbolic::SingularitySet::inverse);
