@@ -5,6 +5,7 @@
 
 #include "corank/analyze/pieces/cell_parts.h"
 #include "corank/core/rounding.h"
+#include "corank/symbolic/model/expression_words.h"
 
 namespace corank::analyze {
 namespace {
