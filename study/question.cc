@@ -67,7 +67,7 @@ bool has_kernel(const Question& q) {
 // vector is: two to forty times where the kernel's dimension jumps, and never later. So is a block of a platform on
 // universal rods: its kernel has the platform's rates only (HISTORY, "Legs in one piece").
 bool is_better_than_whole(const Question& part) {
-  return !has_kernel(part) || (part.assembly && part.assembly->has_universal_rods);
+  return !has_kernel(part) || component_of(*part.part)->factor || (part.assembly && part.assembly->has_universal_rods);
 }
 
 }  // namespace

@@ -169,9 +169,10 @@ std::string parts_text(const Result& result) {
   if (result.parts.empty()) return "";
   std::string text;  // those of a boundary stand below its passages
   if (result.outputs.empty())
-    text = symbolic::definition(result.set).is_cspace() ? "\nin the joints alone:\n"
-           : result.parts.size() == 1                   ? "\nby one equation in place of a kernel vector:\n"
-                                                        : fmt::format("\nthe union of {} parts:\n", result.parts.size());
+    text = result.parts.size() == 1 && result.parts[0].condition.empty() && !left_out(result.parts[0]).empty()
+               ? "\nin the joints alone:\n"
+           : result.parts.size() == 1 ? "\nby one equation in place of a kernel vector:\n"
+                                      : fmt::format("\nthe union of {} parts:\n", result.parts.size());
   std::size_t width = 0, empty = 0;
   for (const Result& part : result.parts) width = std::max(width, part.cover.boxes.empty() ? 0 : part.part.size());
   for (const Result& part : result.parts) {

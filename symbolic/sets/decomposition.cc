@@ -132,10 +132,22 @@ class Decomposer {
         space_(mechanism),
         matrix_(mechanism, matrix, phi, ExactMatrix::Shape::wide) {}
 
+  std::optional<ExpressionMatrix> wide_in_joints() {
+    shorten();
+    const std::size_t rows = matrix_.size(), columns = matrix_.columns().size();
+    if (!matrix_.is_explicit() || rows == 0 || rows >= columns) return std::nullopt;
+    ExpressionMatrix result;
+    result.columns = matrix_.columns();
+    result.roles.assign(columns, Role::passive);
+    for (std::size_t i = 0; i < rows; ++i) {
+      result.rows.emplace_back();
+      for (std::size_t j = 0; j < columns; ++j) result.rows.back().push_back(matrix_.entry(i, j));
+    }
+    return result;
+  }
+
   std::vector<Component> run() {
-    matrix_.put_into_free_coordinates(ended_);
-    matrix_.eliminate_numbers();
-    matrix_.leave_out_zero_columns();
+    shorten();
     const auto blocks = matrix_.blocks();
     if (!blocks) return {};
     for (const SquareBlock& block : *blocks) {
@@ -152,6 +164,11 @@ class Decomposer {
   }
 
  private:
+  void shorten() {
+    matrix_.put_into_free_coordinates(ended_);
+    matrix_.eliminate_numbers();
+    matrix_.leave_out_zero_columns();
+  }
   std::string columns_of(const SquareBlock& block) const {
     std::vector<std::string> columns;
     for (const std::size_t j : block.columns) columns.push_back(matrix_.columns()[j]);
@@ -243,7 +260,10 @@ class Decomposer {
 
 }  // namespace
 
-std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended) {
+namespace {
+
+// Nothing where M is tall, or there are two.
+std::optional<Decomposer> decomposer(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended) {
   ExpressionMatrix matrix = kernel.matrix;
   std::vector<Expression> phi = residuals(mechanism);
   put_in_known_values(mechanism, matrix, phi);
@@ -251,9 +271,23 @@ std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestio
   std::erase_if(matrix.rows, [](const std::vector<Expression>& row) {
     return std::ranges::all_of(row, [](const Expression& e) { return same_tree(e, 0); });
   });
-  if (!kernel.also.empty() || matrix.rows.size() > matrix.columns.size()) return {};
+  if (!kernel.also.empty() || matrix.rows.size() > matrix.columns.size()) return std::nullopt;
   PassiveRates passive = eliminate_passive_rates(mechanism, matrix);
-  return Decomposer(mechanism, passive.eliminated.empty() ? matrix : passive.matrix, phi, ended).run();
+  return std::optional<Decomposer>(std::in_place, mechanism, passive.eliminated.empty() ? matrix : passive.matrix, phi,
+                                   ended);
+}
+
+}  // namespace
+
+std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended) {
+  std::optional<Decomposer> of = decomposer(mechanism, kernel, ended);
+  return of ? of->run() : std::vector<Component>{};
+}
+
+std::optional<ExpressionMatrix> wide_in_joints(const Mechanism& mechanism, const KernelQuestion& kernel,
+                                               const Ended& ended) {
+  std::optional<Decomposer> of = decomposer(mechanism, kernel, ended);
+  return of ? of->wide_in_joints() : std::nullopt;
 }
 
 }  // namespace corank::symbolic

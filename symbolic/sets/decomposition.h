@@ -54,4 +54,9 @@ struct Component {
 /// Of an arm M is written in the joints before it is decomposed (ExactMatrix::put_into_free_coordinates).
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended = {});
 
+/// M in the joints of an arm, where it stays wide: it loses row rank where M does. Nothing where it becomes square, or Φ
+/// does not give all other coordinates.
+std::optional<ExpressionMatrix> wide_in_joints(const Mechanism& mechanism, const KernelQuestion& kernel,
+                                               const Ended& ended = {});
+
 }  // namespace corank::symbolic

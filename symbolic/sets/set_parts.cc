@@ -91,6 +91,23 @@ std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Compon
   return result;
 }
 
+// Of an arm with more joints than outputs, where M loses row rank: M's left kernel in the joints that it depends on.
+std::vector<Component> lost_rank(const Mechanism& mechanism, const KernelQuestion& kernel, const FreeCoordinates& free,
+                                 const Ended& ended) {
+  std::optional<ExpressionMatrix> matrix = wide_in_joints(mechanism, kernel, ended);
+  if (!matrix) return {};
+  std::vector<Expression> entries;
+  for (const auto& row : matrix->rows) entries.insert(entries.end(), row.begin(), row.end());
+  std::optional<TrigonometricSystem> factor = mentioned_coordinates(free, entries);
+  if (!factor) return {};
+  Component part;
+  part.name = "a kernel vector in " + listed(names_of(factor->coordinates));
+  part.block = std::move(matrix);
+  part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
+  part.joints = names_of(free.system.coordinates);
+  return {std::move(part)};
+}
+
 // C-space of an arm of many joints is the product of their ranges and of what inequalities leave of some. One joint stands
 // in for those that no inequality is about: without a coordinate there is nothing to solve.
 std::vector<Component> space_of_joints(const std::optional<FreeCoordinates>& free) {
@@ -112,8 +129,10 @@ std::vector<Component> space_of_joints(const std::optional<FreeCoordinates>& fre
 std::vector<Component> components(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended,
                                   const std::optional<FreeCoordinates>* known = nullptr) {
   std::vector<Component> parts = decompose(mechanism, kernel, ended);
-  if (parts.empty()) return parts;
+  const bool is_wide = kernel.matrix.columns.size() > kernel.matrix.rows.size();
+  if (parts.empty() && !is_wide) return parts;
   const std::optional<FreeCoordinates> free = known != nullptr ? *known : free_coordinates(mechanism);
+  if (parts.empty()) return free && is_large(*free) ? lost_rank(mechanism, kernel, *free, ended) : parts;
   std::vector<Component> in_joints = parts;
   const bool leaves_out = free && is_large(*free) && leave_out_coordinates(*free, in_joints);
   parts = leaves_out ? std::move(in_joints) : simplified(mechanism, std::move(parts), ended);
@@ -255,7 +274,9 @@ SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, SetPa
     kernel_.emplace(kernel_question(mechanism_, *requirement));
   } else if (component && component->block) {
     const std::vector<SourceLocation> where(component->block->rows.size(), SourceLocation{mechanism.name(), 0, 0});
-    kernel_.emplace(KernelQuestion{definition(set), "B", *component->block, where, KernelSide::right, {}});
+    const bool is_wide = component->block->columns.size() > component->block->rows.size();
+    const KernelSide side = is_wide ? KernelSide::left : KernelSide::right;
+    kernel_.emplace(KernelQuestion{definition(set), "B", *component->block, where, side, {}});
   }
 }
 
@@ -264,6 +285,8 @@ void SetEquations::eliminate_passive_rates() {
 }
 
 std::vector<std::string> SetEquations::scales() const {
+  const Component* component = part_ ? component_of(*part_) : nullptr;
+  if (component && component->factor) return {};  // the outputs' rates have one unit, or are few
   if (kernel_) return kernel_scales(mechanism_, *kernel_);
   return part_ ? std::vector<std::string>{} : kernel_scales(mechanism_, set_);
 }
@@ -271,9 +294,8 @@ std::vector<std::string> SetEquations::scales() const {
 TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales, int corank) const {
   if (!part_ && !kernel_) return singularity_system(mechanism_, set_, std::nullopt, scales, corank);
   const Component* component = part_ ? component_of(*part_) : nullptr;
-  TrigonometricSystem system = kernel_                          ? singularity_system(mechanism_, *kernel_, scales, corank)
-                               : component && component->factor ? *component->factor
-                                                                : plain_system(mechanism_);
+  TrigonometricSystem system = component && component->factor ? *component->factor : plain_system(mechanism_);
+  if (kernel_) system = with_kernel(std::move(system), mechanism_, *kernel_, scales, corank);
   if (component && component->factor) system.coordinates_of_whole = mechanism_.coordinates();
   if (!whole_.empty()) system.coordinates_of_whole = whole_;
   if (!kernel_) system.name += std::string(" ") + definition(set_).name;

@@ -376,9 +376,13 @@ KernelQuestion without_passive_rates(const Mechanism& mechanism, KernelQuestion 
 
 TrigonometricSystem singularity_system(const Mechanism& mechanism, const KernelQuestion& kernel,
                                        const std::vector<std::string>& scales, int corank) {
+  return with_kernel(plain_system(mechanism), mechanism, kernel, scales, corank);
+}
+
+TrigonometricSystem with_kernel(TrigonometricSystem system, const Mechanism& mechanism, const KernelQuestion& kernel,
+                                const std::vector<std::string>& scales, int corank) {
   if (is_on_a_line(kernel) && corank != 1)
     throw ModelError(model_place(mechanism), "the limit of an effort or an error has no corank", "a corank of 1");
-  TrigonometricSystem system = plain_system(mechanism);
   system.name += std::string(" ") + kernel.set.name + (corank > 1 ? " corank " + std::to_string(corank) : "");
   system.kernel_scales = scales;
   system.corank = corank;

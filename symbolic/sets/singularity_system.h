@@ -110,6 +110,9 @@ TrigonometricSystem singularity_system(const Mechanism& mechanism, SingularitySe
 /// The same of a kernel_question().
 TrigonometricSystem singularity_system(const Mechanism& mechanism, const KernelQuestion& kernel,
                                        const std::vector<std::string>& scales, int corank);
+/// The same with these equations of the configuration in place of Φ(q) = 0.
+TrigonometricSystem with_kernel(TrigonometricSystem equations, const Mechanism& mechanism, const KernelQuestion& kernel,
+                                const std::vector<std::string>& scales, int corank = 1);
 
 /// The equations and inequalities of the model itself, nothing added (a plain system, or C-space).
 TrigonometricSystem plain_system(const Mechanism& mechanism);

@@ -205,6 +205,72 @@ TEST(IdleJoints, OfRandomArmsLoseNothingOfTheBoundary) {
   EXPECT_GT(singular, arms);
 }
 
+// An arm of four joints that bring its tip somewhere: singular where its Jacobian has lost rank, which is a curve, whatever
+// its first joint, by which it turns as a whole, and its idle one. Found by Newton's method for λᵀJ = 0 from random places.
+std::optional<Joints> lost_rank_near(const Arm& arm, Joints q, Vector3d lambda) {
+  const auto residual = [&](const Joints& at, const Vector3d& l) {
+    constexpr double kStep = 1e-5;
+    Eigen::VectorXd r(5);
+    for (std::size_t i = 0; i < 4; ++i) {
+      Joints more = at, less = at;
+      more[i] += kStep, less[i] -= kStep;
+      r[static_cast<Eigen::Index>(i)] = l.dot(arm.tip(more) - arm.tip(less)) / (2 * kStep);
+    }
+    r[4] = l.squaredNorm() - 1;
+    return r;
+  };
+  for (int step = 0; step < 40; ++step) {
+    const Eigen::VectorXd r = residual(q, lambda);
+    if (r.norm() < 1e-10) return q;
+    Eigen::MatrixXd j(5, 7);
+    for (std::size_t i = 0; i < 7; ++i) {
+      Joints moved = q;
+      Vector3d turned = lambda;
+      (i < 4 ? moved[i] : turned[static_cast<Eigen::Index>(i) - 4]) += 1e-6;
+      j.col(static_cast<Eigen::Index>(i)) = (residual(moved, turned) - r) / 1e-6;
+    }
+    Eigen::VectorXd shift = j.completeOrthogonalDecomposition().solve(r);
+    if (shift.norm() > 0.5) shift *= 0.5 / shift.norm();
+    for (std::size_t i = 0; i < 4; ++i) q[i] -= shift[static_cast<Eigen::Index>(i)];
+    lambda -= shift.tail<3>();
+  }
+  return std::nullopt;
+}
+
+TEST(IdleJoints, OfRedundantArmsLoseNothingOfTheSingularities) {
+  std::size_t arms = 0, samples = 0;
+  for (unsigned seed = 0; seed < test::seeds(4); ++seed) {
+    RandomArm random(seed);
+    Arm& arm = random.arm;
+    arm.rows.clear();
+    const double angles[] = {90, -90, 45};
+    for (int i = 0; i < 4; ++i)
+      arm.rows.push_back({i == 0 ? 0 : angles[random.draw(0, 2)], i == 0 ? 0 : random.draw(1, 8) / 10.0,
+                          random.draw(0, 5) / 10.0, false, -170, 170});
+    arm.rows.push_back({90, 0.6, 0.1, false, -90, 90});
+    arm.idle = 1;
+    const result::Result result = answer_to(arm, symbolic::SingularitySet::inverse, 150'000);
+    ASSERT_EQ(result.parts.size(), 1u);
+    EXPECT_THAT(result.free_coordinates, testing::IsSupersetOf({"q1", "q5"})) << arm.text();
+    if (!result.cover.complete()) continue;
+    ++arms;
+    for (int k = 0; k < 30; ++k) {
+      std::optional<Joints> q = lost_rank_near(arm, random.configuration(), Vector3d::Random().normalized());
+      if (!q) continue;
+      for (double& angle : *q) angle = std::remainder(angle, 2 * kPi);
+      if (std::ranges::any_of(*q, [](double angle) { return std::fabs(angle) > 169 * kPi / 180; })) continue;
+      (*q)[4] = 1;
+      ++samples;
+      EXPECT_TRUE(holds(result, arm, *q)) << arm.text();
+    }
+    if (seed % 4 == 0) {
+      EXPECT_TRUE(result::verify(result).verified()) << arm.text();
+    }
+  }
+  EXPECT_GE(arms, test::seeds(4) / 2);
+  EXPECT_GT(samples, 5 * arms);
+}
+
 // Its C-space is a product; ranges of what the joints give cut nothing off.
 TEST(IdleJoints, AreAllJointsOfAnArmsCspace) {
   Arm arm = scara();
