@@ -91,11 +91,15 @@ std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Compon
   return result;
 }
 
-// Of an arm with more joints than outputs, where M loses row rank: M's left kernel in the joints that it depends on.
+// Of an arm with more joints than outputs, where M loses row rank: M's left kernel in the joints that it depends on. Of a
+// curve the whole says more.
 std::vector<Component> lost_rank(const Mechanism& mechanism, const KernelQuestion& kernel, const FreeCoordinates& free,
                                  const Ended& ended) {
   std::optional<ExpressionMatrix> matrix = wide_in_joints(mechanism, kernel, ended);
   if (!matrix) return {};
+  const long joints = std::ranges::count_if(free.system.coordinates, std::not_fn(is_fixed)),
+             conditions = std::ssize(matrix->columns) - std::ssize(matrix->rows) + 1;
+  if (joints - conditions < 2) return {};
   std::vector<Expression> entries;
   for (const auto& row : matrix->rows) entries.insert(entries.end(), row.begin(), row.end());
   std::optional<TrigonometricSystem> factor = mentioned_coordinates(free, entries);
