@@ -27,11 +27,10 @@ bool lacks_outputs(const symbolic::Mechanism& model, const result::Result& resul
   bool lacks = false;
   for (const result::Result& part : result.parts) {
     if (left_out(part).empty() || part.cover.boxes.empty()) continue;
-    const auto has = [&](const std::string& name) { return has_coordinate(part, name); };
-    if (std::ranges::all_of(model.outputs(), has)) continue;
+    if (result::has_outputs(model, part)) continue;
     std::vector<std::string> own;
     for (const symbolic::Coordinate& c : model.coordinates())
-      if (has(c.name)) own.push_back(c.name);
+      if (has_coordinate(part, c.name)) own.push_back(c.name);
     if (!symbolic::can_have_outputs(model, own)) return false;
     lacks = true;
   }

@@ -110,8 +110,9 @@ std::optional<Vector> zero_of(const Vector& axis) {
 
 // With the axis as z and the zero as x, in the frame of the end's link.
 Pose frame_of(const JointEnd& end, const Vector& zero) {
-  const Vector z = unit(end.axis), along = {folded_product(dot(zero, z), z[0]), folded_product(dot(zero, z), z[1]),
-                                            folded_product(dot(zero, z), z[2])};
+  const Vector z = unit(end.axis);
+  const Expression height = dot(zero, z);
+  const Vector along{folded_product(height, z[0]), folded_product(height, z[1]), folded_product(height, z[2])};
   const Vector x = unit(zero - along), y = cross(z, x);
   Pose frame;
   for (std::size_t i = 0; i < 3; ++i) frame.rotation[i] = {x[i], y[i], z[i]};

@@ -61,10 +61,6 @@ bool is_about(const symbolic::SetPart& part, const Result& result) {
          (!limits || limits->of_output || limits->has_multipliers != result.options.kernel.empty());
 }
 
-bool has_outputs(const symbolic::Mechanism& mechanism, const Result& result) {
-  return std::ranges::all_of(mechanism.outputs(), [&](const std::string& name) { return has_coordinate(result, name); });
-}
-
 // The parts that these results are about, all or some of a set's. Of a boundary either those of today, or as older programs
 // had them, each with its λ.
 std::vector<symbolic::SetPart> parts_of(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set,
@@ -79,6 +75,13 @@ std::vector<symbolic::SetPart> parts_of(const symbolic::Mechanism& mechanism, sy
   if (has_all || !symbolic::definition(set).of_parts) return parts;
   const std::vector<symbolic::BoundaryPart> former = symbolic::boundary_parts(mechanism);
   return {former.begin(), former.end()};
+}
+
+// The one of them that the result is about.
+const symbolic::SetPart& part_among(const std::vector<symbolic::SetPart>& parts, const Result& result) {
+  const auto own = std::ranges::find_if(parts, [&](const symbolic::SetPart& part) { return is_about(part, result); });
+  if (own == parts.end()) throw ResultFileError("the result's model has no part '" + result.part + "'");
+  return *own;
 }
 
 System compiled(const symbolic::Mechanism& mechanism, symbolic::SingularitySet set, const symbolic::SetPart& part,
@@ -293,25 +296,23 @@ System system_of(const symbolic::Mechanism& mechanism, const Result& result) {
   return system;
 }
 
+bool has_outputs(const symbolic::Mechanism& mechanism, const Result& result) {
+  return std::ranges::all_of(mechanism.outputs(), [&](const std::string& name) { return has_coordinate(result, name); });
+}
+
 std::vector<System> systems_of_parts(const symbolic::Mechanism& mechanism, const Result& result) {
   std::vector<System> systems;
   if (result.parts.empty()) return systems;
   const auto set = symbolic::singularity_set_from_string(result.set);
   if (!set) throw ResultFileError("the result's model has no set '" + result.set + "'");
   const std::vector<symbolic::SetPart> parts = parts_of(mechanism, *set, result.parts);
-  for (const Result& part : result.parts) {
-    const auto own = std::ranges::find_if(parts, [&](const symbolic::SetPart& p) { return is_about(p, part); });
-    if (own == parts.end()) throw ResultFileError("the result's model has no part '" + part.part + "'");
-    systems.push_back(compiled(mechanism, *set, *own, part));
-  }
+  for (const Result& part : result.parts) systems.push_back(compiled(mechanism, *set, part_among(parts, part), part));
   return systems;
 }
 
 symbolic::SetPart part_of(const symbolic::Mechanism& mechanism, const Result& result) {
-  if (const auto set = symbolic::singularity_set_from_string(result.set); set && !result.part.empty())
-    for (symbolic::SetPart& part : parts_of(mechanism, *set, std::span(&result, 1)))
-      if (is_about(part, result)) return std::move(part);
-  throw ResultFileError("the result's model has no part '" + result.part + "'");
+  const auto set = symbolic::singularity_set_from_string(result.set);
+  return part_among(set ? parts_of(mechanism, *set, std::span(&result, 1)) : std::vector<symbolic::SetPart>{}, result);
 }
 
 std::optional<VelocityBlocks> blocks_of(const Result& result) {

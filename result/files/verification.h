@@ -39,6 +39,9 @@ System system_of(const Result& result);
 /// The same for its model, model_of(result), made before.
 System system_of(const symbolic::Mechanism& model, const Result& result);
 
+/// Do its boxes have sides for all of the model's outputs?
+bool has_outputs(const symbolic::Mechanism& model, const Result& result);
+
 /// Of each part of a result; none where it has no parts. Throws as system_of().
 std::vector<System> systems_of_parts(const symbolic::Mechanism& model, const Result& result);
 

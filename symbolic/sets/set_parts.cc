@@ -200,6 +200,12 @@ std::optional<WithOutputs> with_outputs(const Mechanism& mechanism, const std::v
   return WithOutputs{std::move(system), idle.free};
 }
 
+// Few boxes: each can be asked for its types.
+bool has_labels(const SetPart& part, const System& compiled) {
+  const auto* component = std::get_if<Component>(&part);
+  return component && !component->block && !component->factor && compiled.dimension() <= 1;
+}
+
 std::vector<SetPart> found_boundary(const Mechanism& mechanism, const Ended& ended) {
   std::vector<SetPart> result;
   std::vector<BoundaryPart> parts = boundary_parts(mechanism);
@@ -245,11 +251,6 @@ bool add_outputs(const Mechanism& mechanism, SetPart& part) {
   component->factor = std::make_shared<const TrigonometricSystem>(std::move(with->factor));
   component->joints = std::move(with->joints);
   return true;
-}
-
-bool has_labels(const SetPart& part, const System& compiled) {
-  const auto* component = std::get_if<Component>(&part);
-  return component && !component->block && !component->factor && compiled.dimension() <= 1;
 }
 
 void add_claims(const Mechanism& mechanism, SingularitySet set, const SetPart& part, const TrigonometricSystem& equations,
