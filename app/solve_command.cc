@@ -63,8 +63,8 @@ void add_solve_options(CLI::App& sub, SolveCommand& command) {
       "--area", command.area,
       "For --set boundary with two lengths as outputs: always compute proven lower and upper bounds of the workspace's\n"
       "area, which may take long. Without --area, corank computes them only if the area follows from the boundary. It\n"
-      "does not follow, for example, if the model has inequalities, or if the workspace may reach the end of a range\n"
-      "that the model does not declare as a limit (section [LIMITS])");
+      "does not follow, for example, if the workspace may reach the end of a range that the model does not declare as\n"
+      "a limit (section [LIMITS])");
   add_option(sub, "-o RESULT.h5|.sol", command.result_path,
              "Write boxes, verdicts and the model to this file: HDF5, or the CUIK suite's format if its name\n"
              "ends in .sol");

@@ -130,18 +130,13 @@ class Grid {
   std::vector<std::uint16_t> from_boundary_;  // 0: marked
 };
 
-// No configuration at an end of a range that is no limit, and no inequality but those of limits. Of an output the lines at
-// such ends are edges instead: they may bound the workspace, too.
+// No configuration at an end of a range that is no limit. Of an output the lines at such ends are edges instead: they may
+// bound the workspace, too.
 bool has_no_other_ends(const symbolic::Mechanism& model, const System& system, int x, int y, std::vector<Box>& edges,
                        solve::Control& control) {
   constexpr std::uint64_t kMost = 2000;  // boxes of a search: what takes more is not known
   std::set<std::string> limited;
   for (const symbolic::Limit& limit : symbolic::effective_limits(model)) limited.insert(limit.coordinate);
-  for (const Polynomial& f : system.inequalities) {
-    const bool of_limit =
-        std::ranges::any_of(limited, [&](const std::string& name) { return f.source == "range of " + name; });
-    if (!of_limit) return false;
-  }
   for (const Angle& angle : system.angles)
     if (!limited.contains(angle.name) && !(angle.range.width() > 6.283185)) return false;
   const std::vector<certify::ImpliedSides> implied = certify::implied_domains(system);

@@ -63,9 +63,6 @@ struct DomainNotes {
   /// Declared ranges of lengths and limited angles beyond which the set may go on; of auxiliary ones, where it does.
   std::vector<End> ends;
   std::vector<Reason> boundary;
-  /// Of a workspace's boundary: inequalities that are no limits of coordinates. Where one is reached the workspace may end
-  /// as well; the set does not have these configurations.
-  std::vector<std::string> no_limits;
 };
 
 /// What a solution says of a robot from parts: in double precision, from the midpoint of its box.

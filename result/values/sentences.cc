@@ -300,16 +300,6 @@ void describe_domain(const symbolic::Mechanism& mechanism, const System& system,
     if (c.auxiliary && !end->second) continue;  // as a link's vector: the ends of its range are out of its reach
     result.domain.ends.push_back({c.name, end->second});
   }
-  if (symbolic::definition(result.set).of_parts) {
-    // A sign chooses one of two ways in which axes or angles agree; it changes at no configuration.
-    const auto is_choice = [](const std::string& source) {
-      return source.ends_with("(angle)") || source.ends_with("(axis)");
-    };
-    for (std::size_t i = 0; i < system.inequalities.size(); ++i)
-      if (const Thing one = inequality(system, result, i); one.range.empty() && !is_choice(one.reason))
-        if (std::vector<std::string>& list = result.domain.no_limits; std::ranges::find(list, one.reason) == list.end())
-          list.push_back(one.reason);
-  }
   for (const auto& [reason, boxes] : reasons) result.domain.boundary.push_back({reason, boxes});
   if (others > 0) result.domain.boundary.push_back({"rounding", others});
   std::ranges::stable_sort(result.domain.boundary, [](const auto& a, const auto& b) { return a.boxes > b.boxes; });
@@ -323,10 +313,6 @@ std::vector<std::string> range_end_sentences(const DomainNotes& notes) {
       if (end.reached == reached) names.push_back(end.coordinate);
     if (!names.empty()) sentences.push_back(sentence(reached ? "reaches" : "may reach", names));
   }
-  if (!notes.no_limits.empty())
-    sentences.push_back(
-        fmt::format("the workspace may also end where {} is reached; the set does not have these configurations",
-                    listed(notes.no_limits, " or ")));
   return sentences;
 }
 

@@ -26,7 +26,7 @@ std::string to_table(const Result& result);
 /// One object: model, set, system{variables, equations, inequalities, dimension}, options{…}, complete, stopped (null, or by
 /// what and in which stage), boxes{processed, regular, isolated, exact, boundary, partial, undecided, pending},
 /// parts_of_sheets (boxes), undecided_reasons{reason: boxes}, observed_dimension, self_motions[{dimension, boxes, relations,
-/// text}], boundary_reasons, range_ends, no_limits, ranges_found, tolerances, points, meaning, node_distance, kernel,
+/// text}], boundary_reasons, range_ends, ranges_found, tolerances, points, meaning, node_distance, kernel,
 /// free_coordinates, seconds{total, search, certify}, version. Every double reads back as the same double; sigma is null
 /// where it is infinite.
 ///
@@ -34,7 +34,7 @@ std::string to_table(const Result& result);
 /// `observed_dimension` is null, or that of a set along which boxes stayed undecided, as samples show, where it is larger
 /// than expected: no claim. `boundary_reasons` is a list of {reason, boxes}: what `boundary` boxes are not shown to be
 /// inside of. `range_ends` is a list of {variable, reached}: declared ranges whose ends the set reaches (proven), or may
-/// reach. `no_limits`: of a workspace's boundary, the inequalities at which it does not look. `ranges_found` has name: {lo,
+/// reach. `ranges_found` has name: {lo,
 /// hi} of each variable without a declared range. `points` is null where the dimension is not 0, else a list of
 /// {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns as they are, angles in radians in place of their sines and
 /// cosines; of a robot from parts also joints{name: value} and links{name: {position, rotation}}, poses in the world at the

@@ -216,7 +216,6 @@ std::string to_json(const Result& result, const std::optional<Interval>& area) {
   json["range_ends"] = Json::array();
   for (const DomainNotes::End& end : result.domain.ends)
     json["range_ends"].push_back({{"variable", end.coordinate}, {"reached", end.reached}});
-  json["no_limits"] = result.domain.no_limits;
   json["ranges_found"] = Json::object();
   for (const int j : result.domain.found) {
     const ResultVariable& v = result.variables[j];

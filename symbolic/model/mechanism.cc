@@ -260,6 +260,16 @@ void Mechanism::set_range(const std::string& coordinate, const Expression& lower
   c.lower = lower, c.upper = upper, c.has_range = true;
 }
 
+void Mechanism::reach(const Relation& inequality) {
+  const auto is_it = [&](const Constraint& c) { return same_relation(c.relation, inequality); };
+  const auto first = std::ranges::find_if(constraints_, is_it);
+  if (first == constraints_.end()) return;
+  Constraint equation = *first;
+  equation.relation.kind = Relation::Kind::equal;
+  std::erase_if(constraints_, is_it);
+  constraints_.push_back(std::move(equation));
+}
+
 void Mechanism::unroll(const std::string& angle, const Expression& lower, const Expression& upper) {
   set_range(angle, lower, upper);
   coordinates_[find_coordinate(angle)].kind = CoordinateKind::length;

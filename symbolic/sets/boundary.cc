@@ -90,22 +90,79 @@ Outline outline(const Mechanism& mechanism, const IdleCoordinates& idle) {
   return o;
 }
 
-// All ways to choose `size` of the limits from the one with this index on, each with a side.
-void add_choices(const std::vector<Limit>& limits, std::size_t from, std::size_t size, std::vector<Active>& chosen,
+/// What ends the workspace, each with its ends, of which one at a time is met: two of a limit, one of an inequality.
+using Ends = std::vector<Active>;
+
+Ends ends_of(const Limit& limit) { return {{limit.coordinate, limit.lower, false}, {limit.coordinate, limit.upper, true}}; }
+
+// All ways to choose one end each of `size` of these from the one with this index on.
+void add_choices(const std::vector<Ends>& all, std::size_t from, std::size_t size, std::vector<Active>& chosen,
                  std::vector<BoundaryPart>& parts) {
   if (size == 0) {
     parts.push_back({chosen});
-    if (parts.size() > kMostParts)
-      throw ModelError(limits.front().where, "these limits make more than " + std::to_string(kMostParts) + " parts",
-                       "fewer limits, or more outputs");
     return;
   }
-  for (std::size_t i = from; i + size <= limits.size(); ++i)
-    for (const bool upper : {false, true}) {
-      chosen.push_back({limits[i].coordinate, upper ? limits[i].upper : limits[i].lower, upper});
-      add_choices(limits, i + 1, size - 1, chosen, parts);
+  for (std::size_t i = from; i + size <= all.size() && parts.size() <= kMostParts; ++i)
+    for (const Active& end : all[i]) {
+      chosen.push_back(end);
+      add_choices(all, i + 1, size - 1, chosen, parts);
       chosen.pop_back();
     }
+}
+
+// A sign chooses one of two ways in which axes or angles agree; it changes at no configuration.
+bool is_choice(const Constraint& c) { return c.note == "angle" || c.note == "axis"; }
+
+// Of what a motion can reach: an inequality about held coordinates alone holds, or not, at all configurations.
+std::vector<Active> reached_inequalities(const Outline& o) {
+  std::vector<Constraint> inequalities;
+  for (const Constraint& c : o.mechanism.constraints()) {
+    const auto is_in = [&](const std::string& name) {
+      return c.relation.lhs.mentions(name) || c.relation.rhs.mentions(name);
+    };
+    if (c.relation.kind == Relation::Kind::equal || is_choice(c)) continue;
+    if (std::ranges::any_of(o.velocity.matrix.columns, is_in)) inequalities.push_back(c);
+  }
+  std::vector<Active> result;
+  for (const Constraint& c : inequalities) {
+    const bool has_line = c.where.line > 0;
+    const std::string line = has_line ? "line " + std::to_string(c.where.line) : std::to_string(result.size() + 1);
+    const auto has_note = [&](const Constraint& other) { return other.note == c.note; };
+    std::string name = c.note.empty() ? (has_line ? "inequality of " : "inequality ") + line : c.note;
+    if (!c.note.empty() && std::ranges::count_if(inequalities, has_note) > 1) name += " (" + line + ")";
+    const auto is_taken = [&](const Active& a) { return a.name == name || a.name.starts_with(name + ", "); };
+    if (const auto n = std::ranges::count_if(result, is_taken); n > 0) name += ", " + std::to_string(n + 1);
+    result.push_back({std::move(name), 0, false, c.relation});
+  }
+  return result;
+}
+
+bool is_about_outputs_alone(const Outline& o, const Relation& inequality) {
+  const ExpressionMatrix& m = o.velocity.matrix;
+  for (std::size_t j = 0; j < m.columns.size(); ++j)
+    if (m.roles[j] != Role::output && (inequality.lhs.mentions(m.columns[j]) || inequality.rhs.mentions(m.columns[j])))
+      return false;
+  return true;
+}
+
+// Makes the inequalities that are reached equations.
+void reach(Outline& o, const BoundaryPart& part) {
+  for (const Active& active : part.active) {
+    if (!active.inequality) continue;
+    o.mechanism.reach(*active.inequality);
+    const Constraint& equation = o.mechanism.constraints().back();
+    o.equations.push_back(o.mechanism.equations().size() - 1);
+    o.phi.push_back(equation.relation.lhs - equation.relation.rhs);
+    ExpressionMatrix& m = o.velocity.matrix;
+    m.rows.push_back(std::move(derivatives(o.mechanism, m.columns, {o.phi.back()}).front().first));
+    o.velocity.where.push_back(equation.where);
+  }
+}
+
+Outline outline(const Mechanism& mechanism, const BoundaryPart& part) {
+  Outline o = outline(mechanism, part.idle);
+  reach(o, part);
+  return o;
 }
 
 KernelQuestion question(const Outline& o, const BoundaryPart& part) {
@@ -120,7 +177,8 @@ KernelQuestion question(const Outline& o, const BoundaryPart& part) {
   kernel.dropped = std::move(dropped);
   ExpressionMatrix& m = kernel.matrix;
   for (const Active& active : part.active) {
-    const auto at = std::ranges::find(m.columns, active.coordinate) - m.columns.begin();
+    if (active.inequality) continue;
+    const auto at = std::ranges::find(m.columns, active.name) - m.columns.begin();
     m.columns.erase(m.columns.begin() + at);
     m.roles.erase(m.roles.begin() + at);
     for (auto& row : m.rows) row.erase(row.begin() + at);
@@ -212,7 +270,7 @@ Polynomial constant(int value) {
 // n = e_i, and u_i is the limit less τ² (upper), or plus τ².
 PassageForm form_of_output(const Mechanism& mechanism, const Active& active) {
   PassageForm form;
-  for (const std::string& output : mechanism.outputs()) form.normal.push_back(constant(output == active.coordinate));
+  for (const std::string& output : mechanism.outputs()) form.normal.push_back(constant(output == active.name));
   form.slack.push_back(constant(active.upper ? 1 : -1));
   return form;
 }
@@ -222,7 +280,8 @@ PassageForm form_of_output(const Mechanism& mechanism, const Active& active) {
 std::string BoundaryPart::text() const {
   std::string text;
   for (const Active& a : active)
-    text += (text.empty() ? "" : ", ") + a.coordinate + " at its " + (a.upper ? "upper" : "lower") + " limit";
+    text += (text.empty() ? "" : ", ") + a.name +
+            (a.inequality ? " reached" : std::string(" at its ") + (a.upper ? "upper" : "lower") + " limit");
   if (text.empty()) text = "no limit";
   return component ? text + ": " + component->name : text;
 }
@@ -231,30 +290,42 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
   const IdleCoordinates idle = idle_coordinates(mechanism.without_rates());
   const Outline o = outline(mechanism, idle);
   const std::size_t most = o.mobility - o.free + 1;
-  std::vector<Limit> others, of_outputs;
+  std::vector<Ends> others, of_outputs;
   for (const Limit& limit : effective_limits(mechanism))
     if (std::ranges::find(o.velocity.matrix.columns, limit.coordinate) != o.velocity.matrix.columns.end())
-      (role_of(mechanism, limit.coordinate) == Role::output ? of_outputs : others).push_back(limit);
+      (role_of(mechanism, limit.coordinate) == Role::output ? of_outputs : others).push_back(ends_of(limit));
+  for (Active& reached : reached_inequalities(o))
+    (is_about_outputs_alone(o, *reached.inequality) ? of_outputs : others).push_back({std::move(reached)});
   std::vector<BoundaryPart> parts;
   std::vector<Active> chosen;
   for (std::size_t size = 0; size <= std::min(most, others.size()); ++size) add_choices(others, 0, size, chosen, parts);
-  for (const Limit& limit : of_outputs)
-    for (const bool upper : {false, true})
-      parts.push_back({{{limit.coordinate, upper ? limit.upper : limit.lower, upper}}, true, false});
+  if (parts.size() > kMostParts)
+    throw ModelError({mechanism.name(), 0, 0},
+                     "its limits and inequalities make more than " + std::to_string(kMostParts) + " parts of the boundary",
+                     "fewer of them, or more outputs");
+  for (const Ends& ends : of_outputs)
+    for (const Active& end : ends) parts.push_back({{end}, true, false});
   if (!idle.free.empty())
     for (BoundaryPart& part : parts) part.idle = idle;
   return parts;
 }
 
+Mechanism mechanism_of(const Mechanism& mechanism, const BoundaryPart& part) {
+  Mechanism result = without_idle(mechanism.without_rates(), part.idle);
+  for (const Active& active : part.active)
+    if (active.inequality) result.reach(*active.inequality);
+  return result;
+}
+
 KernelQuestion boundary_kernel(const Mechanism& mechanism, const BoundaryPart& part) {
-  return question(outline(mechanism, part.idle), part);
+  return question(outline(mechanism, part), part);
 }
 
 std::optional<PassageForm> passage_form(const Mechanism& mechanism, const BoundaryPart& part,
                                         const TrigonometricSystem& system, const System& compiled) {
-  const Outline o = outline(mechanism, part.idle);
+  const Outline o = outline(mechanism, part);
   if (o.dependencies > 0 || (part.component && part.component->factor)) return std::nullopt;
-  if (part.of_output) return form_of_output(mechanism, part.active.front());
+  if (part.of_output && !part.active.front().inequality) return form_of_output(mechanism, part.active.front());
   const std::shared_ptr<const SecondOrder> all = second_order(o);
   if (!all || compiled.configuration_size != all->variables) return std::nullopt;
   const std::vector<std::string> columns = question(o, part).matrix.columns, sizes = coordinate_sizes(o.mechanism);
@@ -291,8 +362,19 @@ std::optional<PassageForm> passage_form(const Mechanism& mechanism, const Bounda
   for (std::size_t j = 0; j < z.size(); ++j)
     for (std::size_t k = j; k < z.size(); ++k)
       form.hessian.push_back(value(all->second(std::min(z[j], z[k]), std::max(z[j], z[k])), by[j] * by[k]));
-  for (const Active& active : part.active)
-    form.slack.push_back(value(all->gradient[all->place(active.coordinate)], ExactNumber(active.upper ? -1 : 1)));
+  // A coordinate is at its lower limit plus τ², or at its upper one less τ². Where an inequality is reached, its row says g = 0
+  // with g ≥ 0 or g ≤ 0, and g − τ² or g + τ² has −λ_g or λ_g as derivative by τ².
+  const auto is_inequality = [](const Active& active) { return active.inequality.has_value(); };
+  auto multiplier = all->variables + std::ssize(o.phi) - std::ranges::count_if(part.active, is_inequality);
+  for (const Active& active : part.active) {
+    if (!active.inequality) {
+      form.slack.push_back(value(all->gradient[all->place(active.name)], ExactNumber(active.upper ? -1 : 1)));
+      continue;
+    }
+    Polynomial lambda;
+    lambda.monomials.push_back(Monomial(1, {{static_cast<int>(multiplier++), 1}}));
+    form.slack.push_back(value(lambda, ExactNumber(active.inequality->kind == Relation::Kind::greater_equal ? -1 : 1)));
+  }
   for (const std::string& u : mechanism.outputs())
     form.normal.push_back(value(all->gradient[all->place(u)], ExactNumber(1)));
   for (int i = 0; part.has_multipliers && i < form.equations; ++i) form.multipliers.push_back(first + i);

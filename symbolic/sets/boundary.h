@@ -1,17 +1,18 @@
 // The boundary of a mechanism's workspace in the space of its outputs u, as parts: which limited coordinates are at which
-// limit. Every boundary of the workspace, interior or exterior, is the image of a point of some part, or of a configuration
-// at which an inequality is reached.
+// limit, and which inequalities are reached. Every boundary of the workspace, interior or exterior, is the image of a point of
+// some part.
 //
 // With Φ(q) = 0, mobility n = n_q − n_e, n_u ≤ n outputs, z all other coordinates and A a set of limited coordinates of
 // z, each at one of its limits (where n_u ≤ n without the passive ones that have one value, q is without
 // them, and Φ without the equations in these alone):
 //   part A:          Φ(q) = 0,  q_i = limit (i ∈ A),  λᵀ Φ_{z_j} = 0 (z_j ∉ A),  ‖λ‖ = 1,  all limits hold
 //   part of a limited output u_i:   Φ(q) = 0,  u_i = limit,  all limits hold
+// An inequality g(q) ≥ 0 is a limit, too, of a coordinate s = g(q): in the parts that reach it, g = 0 is one more row of Φ.
+// One about outputs alone makes a part as a limited output does.
 // Theorem (doc/theory.md, "Workspace boundaries"): the configurations from which the output cannot move, to first order and
 // with the coordinates at their limits kept there, in some direction are those of the parts with |A| ≤ n − n_u + 1 and of
-// the limited outputs. A part A has the expected dimension n_u − 1. The workspace may also end where an inequality of the
-// model is reached, which is not looked for: DomainNotes::no_limits. Idle coordinates (idle_coordinates.h) are left out
-// before; their ranges are factors of each part.
+// the limited outputs. A part A has the expected dimension n_u − 1. Idle coordinates (idle_coordinates.h) are left out before;
+// their ranges are factors of each part.
 //
 // Generalized singularities: Bohigas, Manubens, Ros, "Singularities of Robot Mechanisms", 2017 (key Bohigas2017), whose
 // sin τ in place of a limited coordinate gives the same configurations, each several times.
@@ -31,24 +32,29 @@ namespace corank::symbolic {
 
 struct BoundaryPart {
   struct Active {
-    std::string coordinate;
-    Expression value;  ///< the limit that it is at
+    std::string name;  ///< of the coordinate, or what the inequality is about
+    Expression value;  ///< the limit that the coordinate is at
     bool upper = false;
+    std::optional<Relation> inequality{};  ///< that is reached, in place of a coordinate's limit
   };
   std::vector<Active> active;
-  bool of_output = false;       ///< `active` is one output, at its limit
+  bool of_output = false;       ///< `active` is one output, at its limit, or an inequality about outputs alone
   bool has_multipliers = true;  ///< λ is a part of its system (set_parts.h)
   IdleCoordinates idle{};  ///< that its system is without: the set is the product with the ranges of those that are free
   /// In place of λᵀ Φ_{z_j} = 0, where these say that a square matrix is singular, and that is a union.
   std::optional<Component> component{};
 
-  /// "no limit", "theta2 at its upper limit, theta5 at its lower limit", "no limit: sin(theta2) = 0".
+  /// "no limit", "theta2 at its upper limit, range of elbow reached", "no limit: sin(theta2) = 0".
   std::string text() const;
 };
 
 /// Without limits first, then by |A|, then those of outputs. Throws ModelError where the model names no outputs, has
 /// more of them than its mobility, or there are more than 1000 parts.
 std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism);
+
+/// Whose configurations a part's are: without a velocity equation of its own and without idle coordinates, and with the
+/// inequalities that are reached as its last equations.
+Mechanism mechanism_of(const Mechanism& mechanism, const BoundaryPart& part);
 
 /// What the kernel vector λ of a part that is not of an output is asked of. Rows of Φ_z that are 0 (dependencies of the
 /// outputs) have none. A mechanism's own velocity equation has no say.

@@ -261,20 +261,17 @@ void add_claims(const Mechanism& mechanism, SingularitySet set, const SetPart& p
 }
 
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, std::optional<KernelSide> side)
-    : mechanism_(mechanism), set_(set) {
+    : whole_(mechanism), mechanism_(mechanism), set_(set) {
   if (definition(set).has_kernel()) kernel_.emplace(kernel_question(mechanism, set, side));
 }
 
 SetEquations::SetEquations(const Mechanism& mechanism, SingularitySet set, SetPart part)
-    : mechanism_(mechanism), set_(set), part_(std::move(part)) {
+    : whole_(mechanism), mechanism_(mechanism), set_(set), part_(std::move(part)) {
   const auto* limits = std::get_if<BoundaryPart>(&*part_);
-  if (limits) {
-    mechanism_ = without_idle(mechanism.without_rates(), limits->idle);
-    if (!limits->idle.free.empty()) whole_ = mechanism.coordinates();
-  }
+  if (limits) mechanism_ = mechanism_of(mechanism, *limits);
   const Component* component = component_of(*part_);
   if (limits && limits->has_multipliers) {
-    kernel_.emplace(boundary_kernel(mechanism_, *limits));
+    kernel_.emplace(boundary_kernel(whole_, *limits));
   } else if (const auto* requirement = std::get_if<RequirementPart>(&*part_)) {
     kernel_.emplace(kernel_question(mechanism_, *requirement));
   } else if (component && component->block) {
@@ -301,8 +298,8 @@ TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales,
   const Component* component = part_ ? component_of(*part_) : nullptr;
   TrigonometricSystem system = component && component->factor ? *component->factor : plain_system(mechanism_);
   if (kernel_) system = with_kernel(std::move(system), mechanism_, *kernel_, scales, corank);
-  if (component && component->factor) system.coordinates_of_whole = mechanism_.coordinates();
-  if (!whole_.empty()) system.coordinates_of_whole = whole_;
+  if ((component && component->factor) || mechanism_.coordinates().size() < whole_.coordinates().size())
+    system.coordinates_of_whole = whole_.coordinates();
   if (!kernel_) system.name += std::string(" ") + definition(set_).name;
   if (!part_) return system;
   if (const auto* limits = std::get_if<BoundaryPart>(&*part_)) set_at_limits(*limits, system);
@@ -319,7 +316,8 @@ TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales,
 
 void SetEquations::set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const {
   for (const BoundaryPart::Active& active : part.active) {
-    Coordinate& c = system.coordinates[mechanism_.find_coordinate(active.coordinate)];
+    if (active.inequality) continue;
+    Coordinate& c = system.coordinates[mechanism_.find_coordinate(active.name)];
     c.lower = c.upper = active.value;
   }
   system.name += ": " + part.text();
@@ -339,7 +337,7 @@ void SetEquations::add_condition(const Component& part, TrigonometricSystem& sys
 System SetEquations::compiled(const std::vector<std::string>& scales) const {
   const TrigonometricSystem equations = system(scales);
   System compiled = algebrize(equations);
-  if (part_) add_claims(mechanism_, set_, *part_, equations, compiled);
+  if (part_) add_claims(whole_, set_, *part_, equations, compiled);
   return compiled;
 }
 

@@ -70,8 +70,7 @@ class SetEquations {
   void set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const;
   void add_condition(const Component& part, TrigonometricSystem& system) const;
 
-  Mechanism mechanism_;              // of a boundary without a velocity equation of its own, and without idle coordinates
-  std::vector<Coordinate> whole_{};  // with them, if there are some
+  Mechanism whole_, mechanism_;  // as given, and whose configurations a part's are: mechanism_of() of a boundary's
   SingularitySet set_;
   std::optional<SetPart> part_;
   /// Nothing: of all configurations, cusps, nodes, or of a part without a kernel vector.

@@ -92,15 +92,16 @@ TEST(Parts, ARangeIsNamedByItsLineAndItsJointAlsoInAStoredResult) {
   EXPECT_THAT(run_corank({"solve", "--refine", whole, "-o", folder.file("cut.h5")}).out, HasSubstr(name));
 }
 
-TEST(Parts, AWorkspacesBoundarySaysWhereItDoesNotLook) {
+TEST(Parts, AWorkspaceEndsWhereARangeIsReached) {
   const TemporaryFolder folder;
   std::string arm = arm_with_a_range();
   arm.erase(arm.find("  actuated"), 10);
   const std::string file = folder.write("arm.cuik", arm);
-  EXPECT_EQ(solved({file, "--set", "boundary"})["no_limits"], json({"arm.cuik:9 (range of elbow)"}));
-  EXPECT_EQ(solved({file, "--set", "cspace"})["no_limits"], json::array());
-  EXPECT_THAT(run_corank({"solve", file, "--set", "boundary"}).out,
-              HasSubstr("the workspace may also end where arm.cuik:9 (range of elbow) is reached"));
+  const json parts = solved({file, "--set", "boundary"})["parts"];
+  const auto reached = std::ranges::find(parts, "range of elbow reached", [](const json& part) { return part["part"]; });
+  ASSERT_NE(reached, parts.end()) << parts.dump();
+  EXPECT_TRUE((*reached)["complete"]);
+  EXPECT_EQ((*reached)["boxes"], (*reached)["boundary"]["barrier"]);
 }
 
 TEST(Parts, AnEmptyBoundaryOfEquationsWithoutLimitsSaysSo) {

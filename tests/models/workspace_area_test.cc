@@ -137,8 +137,8 @@ TEST(WorkspaceArea, OfRandomArmsIsBetweenItsBounds) {
   }
 }
 
-// A range of an output cuts the workspace: its line is a boundary. An inequality is none that is known.
-TEST(WorkspaceArea, KnowsWhatRangesCutAndRefusesInequalities) {
+// A range of an output cuts the workspace: its line is a boundary. An inequality is one, too.
+TEST(WorkspaceArea, KnowsWhatRangesAndInequalitiesCut) {
   symbolic::Mechanism arm("arm");
   const auto x = arm.length("x", 0, 2), y = arm.length("y", -2, 2), t1 = arm.angle("t1"), t2 = arm.angle("t2");
   using symbolic::cos, symbolic::sin;
@@ -153,7 +153,24 @@ TEST(WorkspaceArea, KnowsWhatRangesCutAndRefusesInequalities) {
   EXPECT_GE(half->hi, kPi);
   EXPECT_LT(half->hi - half->lo, 0.05 * kPi);
   arm.constrain(y >= symbolic::Expression(0));
-  EXPECT_FALSE(analyze::area_by_boundary(about_boundary(arm), {}, control));
+  arm.constrain(cos(t2) >= symbolic::Expression(0));
+  const auto quarter = analyze::area_by_boundary(about_boundary(arm), {}, control);
+  ASSERT_TRUE(quarter);
+  // The points p for which some c on the unit circle has |p − c| = 1/2 and c_x ≤ p_x.
+  double area = 0;
+  constexpr int kSteps = 2000;
+  for (int i = 0; i < kSteps; ++i)
+    for (int k = 0; k < kSteps; ++k) {
+      const double px = 1.5 * (i + 0.5) / kSteps, py = 1.5 * (k + 0.5) / kSteps, r2 = px * px + py * py;
+      bool is_in = false;
+      const double along = (r2 + 0.75) / 2, across2 = r2 - along * along;  // p·c with |c| = 1, |p − c| = 1/2
+      for (const double across : {std::sqrt(std::max(0.0, across2)), -std::sqrt(std::max(0.0, across2))})
+        is_in = is_in || (across2 >= 0 && (along * px - across * py) / r2 <= px);
+      area += is_in * 1.5 * 1.5 / kSteps / kSteps;
+    }
+  EXPECT_LE(quarter->lo, area);
+  EXPECT_GE(quarter->hi, area);
+  EXPECT_LT(quarter->hi - quarter->lo, 0.1 * area);
 }
 
 TEST(WorkspaceArea, OfAnUnlimitedTwoLinkArmIsThatOfItsRing) {

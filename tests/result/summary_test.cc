@@ -34,7 +34,7 @@ TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   EXPECT_THAT(keys(json), ElementsAre("model", "set", "corank", "system", "options", "complete", "assembled", "sample",
                                       "nearly_solved", "stopped", "boxes", "parts_of_sheets", "undecided_reasons",
                                       "observed_dimension", "seems_of_corank", "self_motions", "boundary_reasons",
-                                      "range_ends", "no_limits", "ranges_found", "tolerances", "points", "meaning",
+                                      "range_ends", "ranges_found", "tolerances", "points", "meaning",
                                       "node_distance", "kernel", "free_coordinates", "types", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]),
@@ -184,7 +184,7 @@ TEST(Table, ListsTheParts) {
 
 Result result_at_the_ends() {
   Result result = sample_result();
-  result.domain = {{0}, {{"x", true}, {"t", false}, {"z", true}}, {{"upper end of x", 3}, {"m.cuik:9", 1}}, {}};
+  result.domain = {{0}, {{"x", true}, {"t", false}, {"z", true}}, {{"upper end of x", 3}, {"m.cuik:9", 1}}};
   result.variables[0].domain = {-0.11, 1.81};
   return result;
 }
