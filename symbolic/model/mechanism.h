@@ -166,11 +166,11 @@ class Mechanism {
 
   /// Gives a declared coordinate that is no component of a composite another range. Throws ModelError where there is none.
   void set_range(const std::string& coordinate, const Expression& lower, const Expression& upper);
+  /// The same, and an angle becomes a length: the real number in that range of which the equations take the sine and cosine.
+  void unroll(const std::string& angle, const Expression& lower, const Expression& upper);
   /// Makes an inequality the equation of its two sides, behind all others: the configurations that reach it. Nothing happens
   /// where no constraint is that.
   void reach(const Relation& inequality);
-  /// The same as set_range(), and an angle becomes a length: the real number in that range of which the equations take the sine and cosine.
-  void unroll(const std::string& angle, const Expression& lower, const Expression& upper);
 
   const std::string& name() const { return name_; }
   /// The model's text as read, empty for a mechanism built in C++.

@@ -362,8 +362,8 @@ std::optional<PassageForm> passage_form(const Mechanism& mechanism, const Bounda
   for (std::size_t j = 0; j < z.size(); ++j)
     for (std::size_t k = j; k < z.size(); ++k)
       form.hessian.push_back(value(all->second(std::min(z[j], z[k]), std::max(z[j], z[k])), by[j] * by[k]));
-  // A coordinate is at its lower limit plus τ², or at its upper one less τ². Where an inequality is reached, its row says g = 0
-  // with g ≥ 0 or g ≤ 0, and g − τ² or g + τ² has −λ_g or λ_g as derivative by τ².
+  // A coordinate is at its lower limit plus τ², or at its upper one less τ². Where an inequality is reached, its row says
+  // g = 0 with g ≥ 0 or g ≤ 0, and g − τ² or g + τ² has −λ_g or λ_g as derivative by τ².
   const auto is_inequality = [](const Active& active) { return active.inequality.has_value(); };
   auto multiplier = all->variables + std::ssize(o.phi) - std::ranges::count_if(part.active, is_inequality);
   for (const Active& active : part.active) {

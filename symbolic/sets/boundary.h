@@ -1,6 +1,6 @@
 // The boundary of a mechanism's workspace in the space of its outputs u, as parts: which limited coordinates are at which
-// limit, and which inequalities are reached. Every boundary of the workspace, interior or exterior, is the image of a point of
-// some part.
+// limit, and which inequalities are reached. Every boundary of the workspace, interior or exterior, is the image of a point
+// of some part.
 //
 // With Φ(q) = 0, mobility n = n_q − n_e, n_u ≤ n outputs, z all other coordinates and A a set of limited coordinates of
 // z, each at one of its limits (where n_u ≤ n without the passive ones that have one value, q is without
@@ -11,8 +11,8 @@
 // One about outputs alone makes a part as a limited output does.
 // Theorem (doc/theory.md, "Workspace boundaries"): the configurations from which the output cannot move, to first order and
 // with the coordinates at their limits kept there, in some direction are those of the parts with |A| ≤ n − n_u + 1 and of
-// the limited outputs. A part A has the expected dimension n_u − 1. Idle coordinates (idle_coordinates.h) are left out before;
-// their ranges are factors of each part.
+// the limited outputs. A part A has the expected dimension n_u − 1. Idle coordinates (idle_coordinates.h) are left out
+// before; their ranges are factors of each part.
 //
 // Generalized singularities: Bohigas, Manubens, Ros, "Singularities of Robot Mechanisms", 2017 (key Bohigas2017), whose
 // sin τ in place of a limited coordinate gives the same configurations, each several times.
