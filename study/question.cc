@@ -49,13 +49,14 @@ Components components_wanted(const Question& q, std::optional<std::optional<symb
   if (q.in_parts) return *q.in_parts ? Components::yes : Components::no;
   // These can be assembled in several ways, which meet at configurations whose kernels have larger dimensions.
   if (q.assembly && (!q.assembly->parallelograms.empty() || q.assembly->has_universal_rods)) return Components::yes;
-  constexpr long kMobilityOfSurfaces = 3, kLongKernel = 10, kLongKernelOfAnArm = 6;
-  if (symbolic::mobility(q.model) >= kMobilityOfSurfaces) return Components::yes;
+  constexpr long kMobilityOfCurves = 2, kLongKernel = 10, kLongKernelOfAnArm = 6;
+  const long mobility = symbolic::mobility(q.model);
+  if (mobility > kMobilityOfCurves) return Components::yes;
   const long rows =
       q.model.has_own_velocity_equation() ? std::ssize(q.model.velocity_equations()) : std::ssize(q.model.equations());
   if (rows >= kLongKernelOfAnArm && rows < kLongKernel) free = symbolic::free_coordinates(q.model);
   const bool is_long = rows >= kLongKernel || (free && *free);
-  return is_long ? Components::if_simple : Components::no;
+  return is_long || mobility == kMobilityOfCurves ? Components::if_simple : Components::no;
 }
 
 bool has_kernel(const Question& q) {

@@ -246,9 +246,8 @@ class Mechanism:
                 share of the size of a curve, and no limit for larger sets (surfaces_whole); math.inf: whole sheets.
             sigma_length, sigma_angle: the same for lengths, and for sines and cosines.
             kernel: the side of the kernel vector, "right" or "left"; "none": the set is solved in parts, each with an
-                equation of its own and no kernel vector; None: the side that fits the matrix, or "none" if a set of
-                dimension 2 or more has such equations, or if the vector would have ten unknowns or more (of an arm six)
-                and no part needs one.
+                equation of its own and no kernel vector; None: "none" if there are such parts, unless the set is points
+                and the vector would have less than ten unknowns, else the side that fits the matrix.
             corank: only configurations at which the kernel has at least this dimension.
             outputs: the outputs for the set "boundary", instead of the model's.
             tolerance: how far each coefficient that is not an integer may vary, relative to its size; 0: not at all; None:

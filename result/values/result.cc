@@ -21,11 +21,11 @@ std::vector<int> places(const Result& whole, const Result& part) {
 
 bool leaves_out(const std::vector<int>& places) { return std::ranges::find(places, -1) != places.end(); }
 
-// Its configuration alone: what is proven of it stays with the part, but for `labels`, and for the exact point, whose index
-// in the whole is so much larger. What that leaves out may be all that it can. Without its region, free variables say that
+// Its configuration alone: what is proven of it stays with the part, but for `labels`, and for the exact point, whose place
+// in the whole `points` has. What that leaves out may be all that it can. Without its region, free variables say that
 // there is a solution for every value of theirs.
-CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part, int points_before,
-                  bool labels) {
+CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Result& whole, int part,
+                  const std::vector<int>& points, bool labels) {
   CoverBox result;
   const bool in_part = !spans(whole.parts[part].cover, box);
   result.box.reserve(places.size());
@@ -37,7 +37,7 @@ CoverBox of_whole(const CoverBox& box, const std::vector<int>& places, const Res
   // Over all values of what is left out, a point is a smooth piece.
   const bool is_point = box.verdict == Verdict::isolated || box.verdict == Verdict::exact;
   result.verdict = is_point && leaves_out(places) ? Verdict::regular : box.verdict;
-  if (box.point >= 0 && !leaves_out(places)) result.point = points_before + box.point;
+  if (box.point >= 0 && !points.empty()) result.point = points.at(box.point);
   result.reason = box.reason;
   result.passage = box.passage;
   result.side = box.side;
@@ -57,6 +57,14 @@ ExactPoint of_whole(const ExactPoint& point, const std::vector<int>& places, boo
     result.types = point.types;
   }
   return result;
+}
+
+// Where parts meet they have the same points.
+int place_of(ExactPoint point, std::vector<ExactPoint>& points) {
+  const auto same = std::ranges::find(points, point);
+  const auto place = static_cast<int>(same - points.begin());
+  if (same == points.end()) points.push_back(std::move(point));
+  return place;
 }
 
 bool same_boxes(const std::vector<CoverBox>& merged, const std::vector<CoverBox>& stored) {
@@ -139,11 +147,12 @@ void merge_parts(Result& whole) {
   for (std::size_t i = 0; i < whole.parts.size(); ++i) {
     const Result& part = whole.parts[i];
     const std::vector<int> from = places(whole, part);
-    const int before = static_cast<int>(cover.exact_points.size());
-    for (const auto& [own, all] : {std::pair(&part.cover.boxes, &cover.boxes), {&part.cover.points, &cover.points}})
-      for (const CoverBox& box : *own) all->push_back(of_whole(box, from, whole, static_cast<int>(i), before, labels));
+    std::vector<int> points;
     if (!leaves_out(from))
-      for (const ExactPoint& point : part.cover.exact_points) cover.exact_points.push_back(of_whole(point, from, labels));
+      for (const ExactPoint& point : part.cover.exact_points)
+        points.push_back(place_of(of_whole(point, from, labels), cover.exact_points));
+    for (const auto& [own, all] : {std::pair(&part.cover.boxes, &cover.boxes), {&part.cover.points, &cover.points}})
+      for (const CoverBox& box : *own) all->push_back(of_whole(box, from, whole, static_cast<int>(i), points, labels));
     if (is_searched(part) || !some_searched) cover.dimension = std::max(cover.dimension, dimension_of(part));
     if (some_pieces ? has_pieces(part) : is_searched(part) || !some_searched) {
       cover.sigma.length = std::max(cover.sigma.length, part.cover.sigma.length);

@@ -74,6 +74,36 @@ class Prover {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
       if (cover_.boxes[i].verdict == Verdict::undecided) open.push_back(i);
+    const std::uint64_t before = cover_.statistics.processed, most = before + std::max(kSearchedAgain, before / 2);
+    for_each_larger_kernel(matrix, open, [&](int point, const Box& hull, const std::vector<std::size_t>& cluster) {
+      search_around(point, hull, cluster);
+      return cover_.statistics.processed <= most;
+    });
+    edit_.finish();
+  }
+
+  // An equation in place of the kernel vector leaves no box undecided where the kernel is larger: the bound on its dimension
+  // says where that may be.
+  void coranks_of_part() {
+    const InStage stage(control_, Stage::exact);
+    const auto is_open = [&](const CoverBox& box) { return box.kernel_at_most > system_.kernel_vectors && box.point < 0; };
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < cover_.boxes.size(); ++i)
+      if (is_open(cover_.boxes[i])) open.push_back(i);
+    for_each_larger_kernel(*system_.singular, open, [&](int point, const Box&, const std::vector<std::size_t>& cluster) {
+      const certify::PointLocation place(cover_.exact_points[point]);
+      for (const std::size_t i : cluster)
+        if (CoverBox& box = cover_.boxes[i]; cover_.exact_points[point].corank >= box.kernel_at_most && place.in(box.box))
+          box.point = point;
+      return true;
+    });
+  }
+
+ private:
+  // In groups of these boxes that touch: visit(its place, the group's hull, the group) where an exact point is found. Until
+  // that says no.
+  template <class Visit>
+  void for_each_larger_kernel(const PolynomialMatrix& matrix, const std::vector<std::size_t>& open, const Visit& visit) {
     if (open.empty() || open.size() > kMostOpenBoxes) return;
     std::vector<const Box*> open_sides;
     for (const std::size_t i : open) open_sides.push_back(&cover_.boxes[i].box);
@@ -81,24 +111,21 @@ class Prover {
         clusters(open_sides, std::vector<double>(system_.variables.size(), 0.0), ended_);
     int futile = 0;
     std::size_t done = 0;
-    const std::uint64_t before = cover_.statistics.processed, most = before + std::max(kSearchedAgain, before / 2);
     for (std::vector<std::size_t>& cluster : groups) {
       control_.report(done++, groups.size());
-      if (stopped() || futile >= kMostFutile || cover_.statistics.processed > most) break;
+      if (stopped() || futile >= kMostFutile) return;
       for (std::size_t& i : cluster) i = open[i];
       Box hull = cover_.boxes[cluster[0]].box;
       for (const std::size_t i : cluster) include(hull, cover_.boxes[i].box);
       const std::optional<int> point = exact_.with_kernel(matrix, hull, system_.kernel_vectors + 1);
       if (!point) {
         ++futile;
-        continue;
+      } else if (!visit(*point, hull, cluster)) {
+        return;
       }
-      search_around(*point, hull, cluster);
     }
-    edit_.finish();
   }
 
- private:
   // The gauge of several kernel vectors makes their entries numbers of large degree. The configuration may be one that is
   // found all the same: then the box is known to hold it, and that the kernel has the dimension asked for.
   void configurations() {
@@ -268,7 +295,8 @@ void prove_exactly(const Prepared& prepared, Cover& cover, Control& control) {
   if (control.ended()) return;  // the reduction may not be the search's
   const auto start = std::chrono::steady_clock::now();
   // With parameters a point would be one robot's.
-  if (prepared.system.size() <= kMostVariables && prepared.system.parameters() == 0) {
+  const bool has_points = prepared.system.size() <= kMostVariables && prepared.system.parameters() == 0;
+  if (has_points) {
     Prover prover(prepared, cover, control);
     // Its searches are a part of this stage, and say nothing of themselves.
     const auto progress = std::exchange(control.search_progress, nullptr);
@@ -280,6 +308,7 @@ void prove_exactly(const Prepared& prepared, Cover& cover, Control& control) {
     control.search_progress = progress;
   }
   bound_kernel_dimensions(prepared, cover, control);
+  if (has_points && cover.dimension > 0 && prepared.system.singular) Prover(prepared, cover, control).coranks_of_part();
   prove_passages(prepared, cover, control);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   cover.statistics.seconds_total += seconds;

@@ -52,7 +52,7 @@ def test_an_angle_across_the_end_of_its_range_is_drawn_in_pieces(dextar, ax):
 
 
 def test_verdicts_can_be_told_apart(dextar, ax):
-    r = dextar.solve("inverse", sigma=0.1)
+    r = dextar.solve("inverse", sigma=0.1, kernel="right")
     r.plot("J3x", "J3y", ax=ax, color="verdict")
     assert {layer.get_label() for layer in ax.collections} >= {"regular", "undecided"}
     assert sum(len(layer.get_paths()) for layer in ax.collections) == len(r)

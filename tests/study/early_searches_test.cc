@@ -14,7 +14,7 @@ using symbolic::SingularitySet;
 class DextarAhead : public testing::Test {
  protected:
   DextarAhead() {
-    Question question{.model = read_model(CORANK_SOURCE_DIR "/models/dextar.cuik").mechanism};
+    Question question{.model = read_model(CORANK_SOURCE_DIR "/models/dextar.cuik").mechanism, .in_parts = false};
     for (const SingularitySet set : {SingularitySet::forward, SingularitySet::inverse, SingularitySet::cspace}) {
       question.set = set;
       questions_.push_back(question);

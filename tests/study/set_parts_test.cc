@@ -182,7 +182,7 @@ TEST(SetPartsOf, ArmsAreConditionsOnTheirJoints) {
   EXPECT_THAT(conditions("serial/orthogonal_3r"),
               ElementsAre("d2*sin(theta3) + d3*cos(theta2)*sin(theta3) - r2*cos(theta2)*cos(theta3) = 0"));
   Question arm{.model = model_named("serial/orthogonal_3r"), .set = SingularitySet::inverse};
-  EXPECT_THAT(names_of(parts_of(arm)), ElementsAre("whole")) << "a curve: its first joint has one value";
+  EXPECT_THAT(names_of(parts_of(arm)), ElementsAre("condition on theta2, theta3")) << "its first joint has one value";
   arm.model.set_range("theta1", -symbolic::pi(), symbolic::pi());
   EXPECT_THAT(names_of(parts_of(arm)), ElementsAre(testing::StartsWith("condition on ")));
 }
@@ -238,7 +238,7 @@ TEST(SetPartsOf, WhatIsNotFactoredInTimeStaysWhole) {
   EXPECT_THAT(names_of(parts_of(arm, [] { return true; })), ElementsAre("whole"));
 }
 
-TEST(SetPartsOf, SurfacesByDefaultAndOfCurvesWhereTheyAreAskedFor) {
+TEST(SetPartsOf, SurfacesAndCurvesByDefaultAndOfPointsWhereTheyAreAskedFor) {
   Question legs{.model = model_named("planar/3prr"), .set = SingularitySet::inverse};
   EXPECT_THAT(names_of(parts_of(legs)),
               ElementsAre("2*h*sin(psi2) - cos(psi2) = 0", "2*h*sin(psi3) + cos(psi3) = 0", "cos(psi1) = 0"));
@@ -258,9 +258,9 @@ TEST(SetPartsOf, SurfacesByDefaultAndOfCurvesWhereTheyAreAskedFor) {
   points.in_parts = true;
   EXPECT_THAT(names_of(parts_of(points)), ElementsAre(testing::StartsWith("block of ")));
   Question curve{.model = model_named("dextar"), .set = SingularitySet::forward};
-  EXPECT_THAT(names_of(parts_of(curve)), ElementsAre("whole"));
-  curve.in_parts = true;
   EXPECT_THAT(names_of(parts_of(curve)), ElementsAre("theta4 = theta3", "theta4 = theta3 + pi"));
+  curve.in_parts = false;
+  EXPECT_THAT(names_of(parts_of(curve)), ElementsAre("whole"));
 }
 
 TEST(SetPartsOf, ALegFoldedUponItselfTurnsFreelyWhereItsLinksAreEquallyLong) {
