@@ -38,12 +38,13 @@ void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set, cons
                      "or inverse-nodes, whichever "
                      "the mechanism can have; an error if it can have both or neither")
       ->check(CLI::IsMember(sets));
-  sub.add_option("--kernel", kernel,
-                 "A singular configuration is one at which a matrix M, a part of the Jacobian, has a kernel vector xi.\n"
-                 "right: solve M xi = 0; left: solve M^T xi = 0; none: solve the set in parts, each with an equation of\n"
-                 "its own in place of xi. Default: (1) none, if corank finds such parts, unless the set is points and M has\n"
-                 "less than ten rows; (2) otherwise left, if the set is ii or io, or M has more columns than rows;\n"
-                 "(3) otherwise right")
+  sub.add_option(
+         "--kernel", kernel,
+         "A singular configuration is one at which a matrix M, a part of the Jacobian, has a kernel vector xi.\n"
+         "right: solve M xi = 0; left: solve M^T xi = 0; none: solve the set in parts, each with an equation of\n"
+         "its own in place of xi. Default: (1) none, if corank finds such parts, unless the set is points and M has\n"
+         "less than ten rows; (2) otherwise left, if the set is ii or io, or M has more columns than rows;\n"
+         "(3) otherwise right")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(sub);
   if (boundary) add_outputs(sub);

@@ -177,10 +177,12 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
   for (const bool fine : {false, true}) {  // first of any size, to know how large the workspace is
     boundary = edges;
     for (const study::Question& part : study::parts_of(question)) {
+      const System of_part = study::system(part);  // may be without idle coordinates
+      const int part_x = of_part.find(outputs[0]), part_y = of_part.find(outputs[1]);
       const solve::Options search{.sigma_length = sigma, .sigma_angle = kWholeCircle, .threads = options.threads};
-      const Cover cover = solve::solve(solve::prepare(study::system(part), search, control), control);
+      const Cover cover = solve::solve(solve::prepare(of_part, search, control), control);
       if (!cover.complete()) return std::nullopt;
-      for (const CoverBox& box : cover.boxes) boundary.push_back({box.box[x], box.box[y]});
+      for (const CoverBox& box : cover.boxes) boundary.push_back({box.box[part_x], box.box[part_y]});
     }
     if (boundary.empty()) return AreaBounds{};
     Box hull = boundary.front();

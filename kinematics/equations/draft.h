@@ -94,7 +94,7 @@ class Draft {
   void at_least_zero(const ex& e, const std::string& note, const SourceLocation& where);
   /// The difference of two angles is 0.
   void no_turn(const Turn& difference, const SourceLocation& where) {
-    if (equation(difference.sine(), "angle", where)) at_least_zero(difference.cosine(), "angle", where);
+    if (equation(difference.sine(), "angle", where)) at_least_zero(difference.cosine(), "choice of angle", where);
   }
 
   ex rate(const std::string& name, symbolic::CoordinateKind kind, symbolic::Role role, const SourceLocation& where);

@@ -339,7 +339,7 @@ void Frames::close(const BodyJoint& j) {
     for (std::size_t i = 0; i < 3; ++i) {
       const ex component = dot(a, image(g1, basis[i]));
       if (i == largest) {
-        draft_.at_least_zero(algebra_.sign(b[i]) * component, "axis", of.where);
+        draft_.at_least_zero(algebra_.sign(b[i]) * component, "choice of axis", of.where);
       } else {
         draft_.equation(component - b[i], "axis", of.where, what);
       }
@@ -351,7 +351,7 @@ void Frames::close(const BodyJoint& j) {
   const Vec zero = image(g1, j.ends[1].zero);
   const ex x = dot(zero, image(g0, j.ends[0].zero)), y = dot(zero, image(g0, cross(j.ends[0].axis, j.ends[0].zero)));
   draft_.equation(x * theta.sine - y * theta.cosine, "angle", of.where);
-  draft_.at_least_zero(x * theta.cosine + y * theta.sine, "angle", of.where);
+  draft_.at_least_zero(x * theta.cosine + y * theta.sine, "choice of angle", of.where);
 }
 
 void Frames::limit(const BodyJoint& j) {
@@ -371,7 +371,8 @@ void Frames::limit(const BodyJoint& j) {
       if (!of.range(0) || algebra_.is_zero(e0.axis)) return;
       const ex upper = algebra_.constant(of.range(0)->upper, of.where);
       if (algebra_.sign(upper - GiNaC::Pi) < 0)
-        draft_.at_least_zero(dot(image(g0, e0.axis), image(g1, e1.axis)) - cos(upper), "cone", of.where);
+        draft_.at_least_zero(dot(image(g0, e0.axis), image(g1, e1.axis)) - cos(upper),
+                             of.name.empty() ? "cone" : "cone of " + of.name, of.where);
       return;
     }
     case JointKind::revolute:

@@ -186,8 +186,12 @@ void sample_parts(const symbolic::Mechanism& model, const Result& result, const 
                   const std::vector<System>& systems, const check::Options& options, Verification& verification) {
   const auto set = *symbolic::singularity_set_from_string(result.set);
   std::vector<check::PartOfSet> parts;
+  const auto is_at_limits = [](const symbolic::SetPart& part) {
+    const auto* limits = std::get_if<symbolic::BoundaryPart>(&part);
+    return limits && !limits->active.empty();
+  };
   for (std::size_t i = 0; i < systems.size(); ++i)
-    if (component_of(all[i]) != nullptr)
+    if (component_of(all[i]) != nullptr && !is_at_limits(all[i]))
       parts.push_back({result.parts[i].part, systems[i], result.parts[i].free_coordinates});
   if (parts.empty()) return;
   const auto* limits = std::get_if<symbolic::BoundaryPart>(&all.front());

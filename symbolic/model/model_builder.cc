@@ -126,9 +126,12 @@ void ModelBuilder::finish_composite(Composite::Kind composite) {
 
 void ModelBuilder::finish_equation() {
   const Relation read{values.at(0), relation, values.at(1)};
+  if (!inequality_name.empty() && (of_rates || implied || relation == Relation::Kind::equal))
+    throw ModelError(equation_where, "an equation has the name " + in_quotes(inequality_name),
+                     "a name of an inequality, or none");
   of_rates  ? mechanism.velocity(read, equation_where)
   : implied ? mechanism.imply(read, equation_where)
-            : mechanism.constrain(read, equation_where);
+            : mechanism.constrain(read, equation_where, inequality_name);
   values.clear();
 }
 

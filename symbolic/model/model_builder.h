@@ -83,6 +83,7 @@ struct ModelBuilder {
   Relation::Kind relation = Relation::Kind::equal;
   SourceLocation equation_where;
   bool equation_is_empty = false;  ///< nothing of it has been read
+  std::string inequality_name;
 
   bool names_are_inputs = true;
   std::vector<Expression> inputs, outputs;  ///< resolved at the end: their section may precede the variables

@@ -54,7 +54,9 @@ CORANK_ACTION(role_word, {
 CORANK_ACTION(equation_begin, {
   b.equation_where = place(in, b);
   b.equation_is_empty = true;
+  b.inequality_name.clear();
 })
+CORANK_ACTION(inequality_name, { b.inequality_name = in.string(); })
 CORANK_ACTION(relation, {
   const char sign = *in.begin();
   b.relation = sign == '='   ? Relation::Kind::equal

@@ -183,12 +183,16 @@ struct role_word : sor<word<exactly<"input">>, word<exactly<"output">>, word<exa
 struct rate : seq<must<rate_name>, line_gap, must<rate_mark>, line_gap, must<role_word>, opt<line_gap, one<';'>>> {};
 struct rates_section : seq<rates_header, star<gap, not_at<section_or_end>, rate>> {};
 
-// [SYSTEM EQS]  expression = expression;
+// [SYSTEM EQS]  expression = expression;   "name": expression <= expression;
 struct equation_begin : success {};
+struct inequality_name : plus<not_one<'"', '\n'>> {};
+struct inequality_name_end : one<'"'> {};
+struct inequality_colon : one<':'> {};
+struct inequality_label : if_must<one<'"'>, inequality_name, inequality_name_end, gap, inequality_colon, gap> {};
 struct relation : sor<one<'='>, string<'<', '='>, string<'>', '='>> {};
 struct equation_end : one<';'> {};
-struct equation : seq<equation_begin, expression<gap>, gap, must<relation>, gap, expression<gap>, gap, must<equation_end>> {
-};
+struct equation : seq<equation_begin, opt<inequality_label>, expression<gap>, gap, must<relation>, gap, expression<gap>, gap,
+                      must<equation_end>> {};
 struct equations_section : seq<equations_header, star<gap, not_at<section_or_end>, equation>> {};
 
 // [INPUTS] and [OUTPUTS]  name, name …

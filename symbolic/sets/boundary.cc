@@ -11,6 +11,7 @@
 #include "corank/symbolic/algebra/remembered.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/kernel_scale.h"
+#include "corank/symbolic/sets/reached_inequalities.h"
 #include "corank/symbolic/velocity/kernel_vector.h"
 
 namespace corank::symbolic {
@@ -108,41 +109,6 @@ void add_choices(const std::vector<Ends>& all, std::size_t from, std::size_t siz
       add_choices(all, i + 1, size - 1, chosen, parts);
       chosen.pop_back();
     }
-}
-
-// A sign chooses one of two ways in which axes or angles agree; it changes at no configuration.
-bool is_choice(const Constraint& c) { return c.note == "angle" || c.note == "axis"; }
-
-// Of what a motion can reach: an inequality about held coordinates alone holds, or not, at all configurations.
-std::vector<Active> reached_inequalities(const Outline& o) {
-  std::vector<Constraint> inequalities;
-  for (const Constraint& c : o.mechanism.constraints()) {
-    const auto is_in = [&](const std::string& name) {
-      return c.relation.lhs.mentions(name) || c.relation.rhs.mentions(name);
-    };
-    if (c.relation.kind == Relation::Kind::equal || is_choice(c)) continue;
-    if (std::ranges::any_of(o.velocity.matrix.columns, is_in)) inequalities.push_back(c);
-  }
-  std::vector<Active> result;
-  for (const Constraint& c : inequalities) {
-    const bool has_line = c.where.line > 0;
-    const std::string line = has_line ? "line " + std::to_string(c.where.line) : std::to_string(result.size() + 1);
-    const auto has_note = [&](const Constraint& other) { return other.note == c.note; };
-    std::string name = c.note.empty() ? (has_line ? "inequality of " : "inequality ") + line : c.note;
-    if (!c.note.empty() && std::ranges::count_if(inequalities, has_note) > 1) name += " (" + line + ")";
-    const auto is_taken = [&](const Active& a) { return a.name == name || a.name.starts_with(name + ", "); };
-    if (const auto n = std::ranges::count_if(result, is_taken); n > 0) name += ", " + std::to_string(n + 1);
-    result.push_back({std::move(name), 0, false, c.relation});
-  }
-  return result;
-}
-
-bool is_about_outputs_alone(const Outline& o, const Relation& inequality) {
-  const ExpressionMatrix& m = o.velocity.matrix;
-  for (std::size_t j = 0; j < m.columns.size(); ++j)
-    if (m.roles[j] != Role::output && (inequality.lhs.mentions(m.columns[j]) || inequality.rhs.mentions(m.columns[j])))
-      return false;
-  return true;
 }
 
 // Makes the inequalities that are reached equations.
@@ -283,7 +249,7 @@ std::string BoundaryPart::text() const {
     text += (text.empty() ? "" : ", ") + a.name +
             (a.inequality ? " reached" : std::string(" at its ") + (a.upper ? "upper" : "lower") + " limit");
   if (text.empty()) text = "no limit";
-  return component ? text + ": " + component->name : text;
+  return component && !component->name.empty() ? text + ": " + component->name : text;
 }
 
 std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
@@ -294,8 +260,8 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
   for (const Limit& limit : effective_limits(mechanism))
     if (std::ranges::find(o.velocity.matrix.columns, limit.coordinate) != o.velocity.matrix.columns.end())
       (role_of(mechanism, limit.coordinate) == Role::output ? of_outputs : others).push_back(ends_of(limit));
-  for (Active& reached : reached_inequalities(o))
-    (is_about_outputs_alone(o, *reached.inequality) ? of_outputs : others).push_back({std::move(reached)});
+  for (ReachedInequality& reached : reached_inequalities(o.mechanism, o.velocity.matrix))
+    (reached.of_outputs ? of_outputs : others).push_back({std::move(reached.end)});
   std::vector<BoundaryPart> parts;
   std::vector<Active> chosen;
   for (std::size_t size = 0; size <= std::min(most, others.size()); ++size) add_choices(others, 0, size, chosen, parts);
@@ -305,6 +271,12 @@ std::vector<BoundaryPart> boundary_parts(const Mechanism& mechanism) {
                      "fewer of them, or more outputs");
   for (const Ends& ends : of_outputs)
     for (const Active& end : ends) parts.push_back({{end}, true, false});
+  const bool has_inequalities = std::ranges::any_of(
+      o.mechanism.constraints(), [](const Constraint& c) { return c.relation.kind != Relation::Kind::equal; });
+  if (has_inequalities)
+    std::erase_if(parts, [&](const BoundaryPart& part) {
+      return !part.active.empty() && (is_settled(o.mechanism, part.active) || is_impossible(o.mechanism, part.active));
+    });
   if (!idle.free.empty())
     for (BoundaryPart& part : parts) part.idle = idle;
   return parts;

@@ -41,7 +41,8 @@ struct BoundaryPart {
   bool of_output = false;       ///< `active` is one output, at its limit, or an inequality about outputs alone
   bool has_multipliers = true;  ///< λ is a part of its system (set_parts.h)
   IdleCoordinates idle{};  ///< that its system is without: the set is the product with the ranges of those that are free
-  /// In place of λᵀ Φ_{z_j} = 0, where these say that a square matrix is singular, and that is a union.
+  /// In place of λᵀ Φ_{z_j} = 0, where these say that a square matrix is singular, and that is a union. Or, without a name
+  /// and a condition, the joints of an arm in which a part without λ is a product.
   std::optional<Component> component{};
 
   /// "no limit", "theta2 at its upper limit, range of elbow reached", "no limit: sin(theta2) = 0".

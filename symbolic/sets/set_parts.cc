@@ -162,14 +162,36 @@ void put_into_joints(const Mechanism& mechanism, const FreeCoordinates& free, Ke
   kernel.matrix = std::move(matrix);
 }
 
-// Of a workspace's boundary.
-std::vector<BoundaryPart> without_multipliers(const Mechanism& mechanism, BoundaryPart part, const Ended& ended) {
+// Of an arm with some joints at their limits: the product with the others' ranges, where that is more than a surface.
+std::optional<Component> product_at_limits(const FreeCoordinates& free, const BoundaryPart& part) {
+  constexpr std::ptrdiff_t kSurface = 2;
+  std::vector<Expression> kept;
+  std::vector<std::string> others;
+  for (const Coordinate& c : free.system.coordinates)
+    if (std::ranges::find(part.active, c.name, &BoundaryPart::Active::name) != part.active.end()) {
+      kept.push_back(Expression::symbol(c.name));
+    } else if (!is_fixed(c)) {
+      others.push_back(c.name);
+    }
+  if (kept.size() < part.active.size() || std::ssize(others) <= kSurface) return std::nullopt;
+  kept.push_back(Expression::symbol(others.front()));  // stands in for them
+  auto factor = mentioned_coordinates(free, kept);
+  if (!factor) return std::nullopt;
+  Component product;
+  product.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
+  product.joints = names_of(free.system.coordinates);
+  return product;
+}
+
+// Of a workspace's boundary. `free`: of the mechanism.
+std::vector<BoundaryPart> without_multipliers(const Mechanism& mechanism, const std::optional<FreeCoordinates>& free,
+                                              BoundaryPart part, const Ended& ended) {
   if (part.of_output) return {part};
   KernelQuestion kernel = boundary_kernel(mechanism, part);
   part.has_multipliers = kernel.matrix.columns.size() >= kernel.matrix.rows.size();
+  if (free && !part.has_multipliers) part.component = product_at_limits(*free, part);
   std::vector<Component> conditions;
   if (part.active.empty()) {  // the many others would take long
-    const std::optional<FreeCoordinates> free = free_coordinates(mechanism);
     if (free) put_into_joints(mechanism, *free, kernel);
     conditions = components(mechanism, kernel, ended, &free);
   }
@@ -210,8 +232,9 @@ std::vector<SetPart> found_boundary(const Mechanism& mechanism, const Ended& end
   std::vector<SetPart> result;
   std::vector<BoundaryPart> parts = boundary_parts(mechanism);
   const Mechanism moving = without_idle(mechanism.without_rates(), parts.front().idle);
+  const std::optional<FreeCoordinates> free = free_coordinates(moving);
   for (BoundaryPart& part : parts)
-    for (BoundaryPart& one : without_multipliers(moving, std::move(part), ended)) result.emplace_back(std::move(one));
+    for (BoundaryPart& one : without_multipliers(moving, free, std::move(part), ended)) result.emplace_back(std::move(one));
   return result;
 }
 
@@ -317,8 +340,8 @@ TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales,
 void SetEquations::set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const {
   for (const BoundaryPart::Active& active : part.active) {
     if (active.inequality) continue;
-    Coordinate& c = system.coordinates[mechanism_.find_coordinate(active.name)];
-    c.lower = c.upper = active.value;
+    const auto at = std::ranges::find(system.coordinates, active.name, &Coordinate::name);
+    at->lower = at->upper = active.value;
   }
   system.name += ": " + part.text();
 }

@@ -61,7 +61,10 @@ class Writer {
   }
 
   static std::string equation(const Constraint& c) {
-    return c.relation.text() + ";" + (c.note.empty() ? "" : "   % " + one_line(c.note));
+    if (c.note.empty()) return c.relation.text() + ";";
+    const std::string note = one_line(c.note);
+    const bool has_name = c.relation.kind != Relation::Kind::equal && note.find('"') == std::string::npos;
+    return has_name ? "\"" + note + "\": " + c.relation.text() + ";" : c.relation.text() + ";   % " + note;
   }
 
   std::size_t widest_limit() const {

@@ -100,12 +100,9 @@ result::Result boundary_of(const std::string& text) {
 }
 
 /// By which limits are met, whichever end, written as either.
-Boxes by_limits(const result::Result& result, const Limited& m, const symbolic::Mechanism& model) {
-  std::map<std::string, std::string> of_line;
-  std::size_t k = 0;
-  for (const symbolic::Constraint& c : model.constraints())
-    if (c.relation.kind != symbolic::Relation::Kind::equal)
-      of_line[fmt::format("inequality of line {} reached", c.where.line)] = m.limits[k++].of;
+Boxes by_limits(const result::Result& result, const Limited& m) {
+  std::map<std::string, std::string> of_name;
+  for (std::size_t k = 0; k < m.limits.size(); ++k) of_name[fmt::format("inequality {} reached", k + 1)] = m.limits[k].of;
   Boxes boxes;
   for (const CoverBox& box : result.cover.boxes) {
     std::string name = result.parts[static_cast<std::size_t>(box.part)].part, key;
@@ -114,7 +111,7 @@ Boxes by_limits(const result::Result& result, const Limited& m, const symbolic::
       const std::size_t comma = std::min(name.find(", "), name.size());
       const std::string one = name.substr(0, comma);
       name.erase(0, std::min(comma + 2, name.size()));
-      key += (of_line.contains(one) ? of_line.at(one) : one.substr(0, one.find(" at its "))) + ";";
+      key += (of_name.contains(one) ? of_name.at(one) : one.substr(0, one.find(" at its "))) + ";";
     }
     boxes[key].push_back(&box);
   }
@@ -181,8 +178,7 @@ TEST(ReachedInequalities, EndAWorkspaceAsLimitsDo) {
     SCOPED_TRACE(fmt::format("seed {}\n{}", seed, inequalities));
     const result::Result a = boundary_of(limits), b = boundary_of(inequalities);
     if (!a.cover.complete() || !b.cover.complete()) continue;
-    const symbolic::Mechanism model = symbolic::parse_model(inequalities, "m.cuik");
-    const Boxes of_a = by_limits(a, m, model), of_b = by_limits(b, m, model);
+    const Boxes of_a = by_limits(a, m), of_b = by_limits(b, m);
     const std::size_t lost = tally.lost, contradicted = tally.contradicted;
     compare(of_a, of_b, tally);
     compare(of_b, of_a, tally);
@@ -198,15 +194,43 @@ TEST(ReachedInequalities, EndAWorkspaceAsLimitsDo) {
               tally.contradicted);
 }
 
-TEST(ReachedInequalities, AreNamedByTheirNotesOrLines) {
+std::vector<std::string> names_of_parts(const std::string& inequalities, const std::string& limits = "") {
   const symbolic::Mechanism m = symbolic::parse_model(
-      "[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\na ~\nb ~\n[SYSTEM EQS]\ncos(a) + cos(b) = x;\nsin(a) + sin(b) = y;\n"
-      "cos(a) >= 0; sin(a) >= 0;\nx + y <= 1;\n[OUTPUTS]\nx y\n",
+      "[SYSTEM VARS]\nx : [-3, 3]\ny : [-3, 3]\na ~\nb ~\n[SYSTEM EQS]\ncos(a) + cos(b) = x;\n"
+      "sin(a) + sin(b) = y;\n" +
+          inequalities + "\n[OUTPUTS]\nx y\n" + limits,
       "m.cuik");
   std::vector<std::string> names;
   for (const symbolic::BoundaryPart& part : symbolic::boundary_parts(m)) names.push_back(part.text());
-  EXPECT_THAT(names, testing::ElementsAre("no limit", "inequality of line 9 reached", "inequality of line 9, 2 reached",
-                                          "inequality of line 10 reached"));
+  return names;
+}
+
+TEST(ReachedInequalities, AreNamedByTheirNamesOrNumbers) {
+  using testing::ElementsAre;
+  EXPECT_THAT(
+      names_of_parts("cos(a) >= 0; sin(a) >= 0;\n\"elbow\": sin(a - b) <= 0.9;\n\"elbow\": sin(a - b) >= 0;\nx + y <= 1;"),
+      ElementsAre("no limit", "inequality 1 reached", "inequality 2 reached", "elbow reached", "elbow, 2 reached",
+                  "inequality 5 reached"));
+  EXPECT_THAT(names_of_parts("cos(a) >= 0.3;\ncos(a) >= 0.3;"), ElementsAre("no limit", "inequality 1 reached")) << "twice";
+  EXPECT_THAT(names_of_parts("sin(a)^2 + cos(a)^2 >= 1/2;"), ElementsAre("no limit")) << "holds everywhere";
+  EXPECT_THAT(names_of_parts("\"choice of axes\": cos(a) >= 0;"), ElementsAre("no limit"));
+  // What a limit settles: cos 1 < 0.9 < cos 0.
+  EXPECT_THAT(names_of_parts("cos(a) >= 0.9;", "[LIMITS]\na : [0, 1]\n"),
+              ElementsAre("no limit", "a at its lower limit", "inequality 1 reached"));
+  EXPECT_THROW(names_of_parts("\"name\": cos(a) = 0;"), symbolic::ModelError);
+}
+
+// A result file has the equations of a robot from parts as text.
+TEST(ReachedInequalities, OfPartsAreVerifiedInAResultFile) {
+  const study::Model robot = study::parse_model(
+      {"[LINKS]\nbase : point O (0, 0, 0)\nl1 : point E (1, 0, 0)\nl2 : point H (0.7, 0, 0)\n[JOINTS]\n"
+       "revolute sh : base O + (0, 0, 1)  l1 (0, 0, 0) + (0, 0, 1)  actuated\n"
+       "revolute el : l1 E + (0, 0, 1)  l2 (0, 0, 0) + (0, 0, 1)  range [-1, 2]\n[OUTPUTS]\np : position of l2.H\n",
+       "arm.cuik"});
+  const result::Result result = study::answer({.model = robot.mechanism, .set = symbolic::SingularitySet::boundary});
+  ASSERT_EQ(result.parts.size(), 2u);
+  EXPECT_EQ(result.parts[1].part, "range of el reached");
+  EXPECT_TRUE(result::verify(result).verified());
 }
 
 }  // namespace

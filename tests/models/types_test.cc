@@ -130,7 +130,7 @@ TEST(TypeSets, OfDextarAreItsLociSinceItHasNoPassiveMotionAndNoIncreasedMobility
   EXPECT_TRUE(dextar_result(SingularitySet::rpm).cover.boxes.empty());
   EXPECT_TRUE(dextar_result(SingularitySet::iim).cover.boxes.empty());
   EXPECT_EQ(dextar_result(SingularitySet::ro, 0.2).cover.boxes.size(),
-            dextar_result(SingularitySet::forward, 0.2).cover.boxes.size());
+            dextar_result(SingularitySet::forward, 0.2, symbolic::KernelSide::right).cover.boxes.size());
   EXPECT_EQ(dextar_result(SingularitySet::io, 0.2).cover.boxes.size(),
             dextar_result(SingularitySet::inverse, 0.2, symbolic::KernelSide::left).cover.boxes.size());
 }

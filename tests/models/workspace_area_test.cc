@@ -173,6 +173,23 @@ TEST(WorkspaceArea, KnowsWhatRangesAndInequalitiesCut) {
   EXPECT_LT(quarter->hi - quarter->lo, 0.1 * area);
 }
 
+// A hand that turns about the output is in no part's system.
+TEST(WorkspaceArea, IsThatWithoutIdleCoordinates) {
+  const study::Model robot = study::parse_model(
+      {"[LINKS]\nbase : point O (0, 0, 0)\nl1 : point E (1, 0, 0)\nl2 : point H (0.7, 0, 0)\nhand : point H (0, 0, 0)\n"
+       "[JOINTS]\nrevolute sh : base O + (0, 0, 1)  l1 (0, 0, 0) + (0, 0, 1)\n"
+       "revolute el : l1 E + (0, 0, 1)  l2 (0, 0, 0) + (0, 0, 1)  range [-1, 2]\n"
+       "revolute wr : l2 H + (0, 0, 1)  hand H + (0, 0, 1)\n[OUTPUTS]\np : position of hand.H\n",
+       "arm.cuik"});
+  solve::Control control;
+  const auto bounds = analyze::area_by_boundary(about_boundary(robot.mechanism), {}, control);
+  ASSERT_TRUE(bounds);
+  const double area = kPi * 1.4 * (1 - std::cos(2.0));
+  EXPECT_LE(bounds->lo, area);
+  EXPECT_GE(bounds->hi, area);
+  EXPECT_LT(bounds->hi - bounds->lo, 0.05 * area);
+}
+
 TEST(WorkspaceArea, OfAnUnlimitedTwoLinkArmIsThatOfItsRing) {
   symbolic::Mechanism arm("arm");
   const auto x = arm.length("x", -2, 2), y = arm.length("y", -2, 2), t1 = arm.angle("t1"), t2 = arm.angle("t2");

@@ -34,8 +34,8 @@ TEST(JsonSummary, HasExactlyTheKeysThatScriptsRelyOn) {
   EXPECT_THAT(keys(json), ElementsAre("model", "set", "corank", "system", "options", "complete", "assembled", "sample",
                                       "nearly_solved", "stopped", "boxes", "parts_of_sheets", "undecided_reasons",
                                       "observed_dimension", "seems_of_corank", "self_motions", "boundary_reasons",
-                                      "range_ends", "ranges_found", "tolerances", "points", "meaning",
-                                      "node_distance", "kernel", "free_coordinates", "types", "seconds", "version"));
+                                      "range_ends", "ranges_found", "tolerances", "points", "meaning", "node_distance",
+                                      "kernel", "free_coordinates", "types", "seconds", "version"));
   EXPECT_THAT(keys(json["system"]), ElementsAre("variables", "equations", "inequalities", "dimension"));
   EXPECT_THAT(keys(json["options"]),
               ElementsAre("kernel", "sigma", "sigma_length", "sigma_angle", "kernel_scales", "passive_rates_eliminated",
