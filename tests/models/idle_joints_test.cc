@@ -15,6 +15,7 @@
 #include "corank/study/answer.h"
 #include "corank/study/cut.h"
 #include "corank/study/model.h"
+#include "corank/symbolic/model/model_file.h"
 #include "corank/tests/seeds.h"
 
 namespace corank {
@@ -330,6 +331,54 @@ TEST(IdleJoints, OfRandomArmsLoseNothingOfThePicture) {
   }
   EXPECT_GT(arms, test::seeds(8) / 4);
   EXPECT_GT(singular, arms);
+}
+
+// A SCARA and one direction of its hand: as many outputs as joints, so that a joint at its limit is a part. It is more than a
+// surface, and the product of the other joints' ranges.
+TEST(IdleJoints, OfAnArmAtALimitArePartsThatAreProducts) {
+  const char* const kArm =
+      "[SYSTEM VARS]\nx : [-6, 6]\ny : [-6, 6]\nz : [-2, 2]\nw : [-2, 2]\nt1 ~\nt2 ~\nt4 ~\nd3 : [-1, 2]\n"
+      "[LIMITS]\nt1 : [-2, 2]\nt2 : [-2.5, 2.5]\nd3 : [0, 1]\nt4 : [-3, 3]\n[SYSTEM EQS]\n"
+      "x = cos(t1) + 0.8*cos(t1 + t2);\ny = sin(t1) + 0.8*sin(t1 + t2);\nz = 1 - d3;\nw = cos(t1 + t2 + t4);\n"
+      "[OUTPUTS] x, y, z, w\n";
+  study::Options options;
+  options.search.surfaces_whole = true;
+  const result::Result result =
+      study::answer({.model = symbolic::parse_model(kArm, "m.cuik"), .set = symbolic::SingularitySet::boundary}, options);
+  EXPECT_TRUE(result.cover.complete());
+  EXPECT_TRUE(result::verify(result).verified());
+  std::mt19937 random(7);
+  const auto between = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  const std::map<std::string, std::pair<double, double>> limits{
+      {"t1", {-2, 2}}, {"t2", {-2.5, 2.5}}, {"d3", {0, 1}}, {"t4", {-3, 3}}};
+  int lost = 0, products = 0;
+  for (const auto& [joint, ends] : limits)
+    for (int k = 0; k < 100; ++k) {
+      std::map<std::string, double> q;
+      for (const auto& [name, range] : limits) q[name] = between(range.first, range.second);
+      q[joint] = k % 2 == 0 ? ends.first : ends.second;
+      q["x"] = std::cos(q["t1"]) + 0.8 * std::cos(q["t1"] + q["t2"]);
+      q["y"] = std::sin(q["t1"]) + 0.8 * std::sin(q["t1"] + q["t2"]);
+      q["z"] = 1 - q["d3"];
+      q["w"] = std::cos(q["t1"] + q["t2"] + q["t4"]);
+      const std::string name = joint + (k % 2 == 0 ? " at its lower limit" : " at its upper limit");
+      const auto holds = [&](const CoverBox& box) {
+        if (result.parts[static_cast<std::size_t>(box.part)].part != name) return false;
+        for (std::size_t v = 0; v < box.box.size(); ++v) {
+          const std::string& variable = result.variables[v].name;
+          const double value = q.contains(variable) ? q.at(variable)
+                               : variable[0] == 'c' ? std::cos(q.at(variable.substr(2)))
+                                                    : std::sin(q.at(variable.substr(2)));
+          if (value < box.box[v].lo() - 1e-9 || value > box.box[v].hi() + 1e-9) return false;
+        }
+        return true;
+      };
+      lost += std::ranges::none_of(result.cover.boxes, holds);
+      const auto part = std::ranges::find(result.parts, name, &result::Result::part);
+      products += part != result.parts.end() && !result::left_out(*part).empty();
+    }
+  EXPECT_EQ(lost, 0);
+  EXPECT_GE(products, 200);
 }
 
 }  // namespace
