@@ -43,8 +43,8 @@ void QuestionOptions::add_options(CLI::App& sub, const std::string& of_set, cons
          "A singular configuration is one at which a matrix M, a part of the Jacobian, has a kernel vector xi.\n"
          "right: solve M xi = 0; left: solve M^T xi = 0; none: solve the set in parts, each with an equation of\n"
          "its own in place of xi. Default: (1) none, if corank finds such parts, unless the set is points and M has\n"
-         "less than ten rows; (2) otherwise left, if the set is ii or io, or M has more columns than rows;\n"
-         "(3) otherwise right")
+         "fewer than ten rows (of an arm six); (2) otherwise left, if the set is ii or io, or M has more columns\n"
+         "than rows; (3) otherwise right")
       ->check(CLI::IsMember({"right", "left", "none"}));
   add_corank(sub);
   if (boundary) add_outputs(sub);

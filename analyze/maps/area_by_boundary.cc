@@ -12,6 +12,7 @@
 #include "corank/solve/search/solve.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/limits.h"
+#include "corank/symbolic/sets/reached_inequalities.h"
 
 namespace corank::analyze {
 namespace {
@@ -130,13 +131,16 @@ class Grid {
   std::vector<std::uint16_t> from_boundary_;  // 0: marked
 };
 
-// No configuration at an end of a range that is no limit. Of an output the lines at such ends are edges instead: they may
+// No configuration at an end of a range that is no limit, and no inequality of which only the model says that it ends
+// nothing. Of an output the lines at such ends are edges instead: they may
 // bound the workspace, too.
 bool has_no_other_ends(const symbolic::Mechanism& model, const System& system, int x, int y, std::vector<Box>& edges,
                        solve::Control& control) {
   constexpr std::uint64_t kMost = 2000;  // boxes of a search: what takes more is not known
   std::set<std::string> limited;
   for (const symbolic::Limit& limit : symbolic::effective_limits(model)) limited.insert(limit.coordinate);
+  for (const symbolic::Constraint& c : model.constraints())
+    if (c.relation.kind != symbolic::Relation::Kind::equal && symbolic::is_no_end(c)) return false;
   for (const Angle& angle : system.angles)
     if (!limited.contains(angle.name) && !(angle.range.width() > 6.283185)) return false;
   const std::vector<certify::ImpliedSides> implied = certify::implied_domains(system);
@@ -179,6 +183,7 @@ std::optional<AreaBounds> area_by_boundary(const study::Question& question, cons
     for (const study::Question& part : study::parts_of(question)) {
       const System of_part = study::system(part);  // may be without idle coordinates
       const int part_x = of_part.find(outputs[0]), part_y = of_part.find(outputs[1]);
+      if (part_x < 0 || part_y < 0) return std::nullopt;
       const solve::Options search{.sigma_length = sigma, .sigma_angle = kWholeCircle, .threads = options.threads};
       const Cover cover = solve::solve(solve::prepare(of_part, search, control), control);
       if (!cover.complete()) return std::nullopt;

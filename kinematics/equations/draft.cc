@@ -65,7 +65,7 @@ void Draft::slice(const ex& angle, const Range& range, const std::string& what, 
     if (const std::optional<Arc> own = arc(range, where))
       at_least_zero(
           GiNaC::cos(angle) * GiNaC::cos(own->middle) + GiNaC::sin(angle) * GiNaC::sin(own->middle) - GiNaC::cos(own->half),
-          "range of " + name, where);
+          "slice of " + name, where);
     return;
   }
   c->range = range;

@@ -247,7 +247,7 @@ class Mechanism:
             sigma_length, sigma_angle: the same for lengths, and for sines and cosines.
             kernel: the side of the kernel vector, "right" or "left"; "none": the set is solved in parts, each with an
                 equation of its own and no kernel vector; None: "none" if there are such parts, unless the set is points
-                and the vector would have less than ten unknowns, else the side that fits the matrix.
+                and the vector would have fewer than ten unknowns (of an arm six), else the side that fits the matrix.
             corank: only configurations at which the kernel has at least this dimension.
             outputs: the outputs for the set "boundary", instead of the model's.
             tolerance: how far each coefficient that is not an integer may vary, relative to its size; 0: not at all; None:

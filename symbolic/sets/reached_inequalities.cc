@@ -37,6 +37,10 @@ std::optional<int> constant_sign(const TrigonometricSystem& system, const Relati
 
 }  // namespace
 
+bool is_no_end(const Constraint& inequality) {
+  return inequality.note.starts_with("choice of ") || inequality.note.starts_with("slice of ");
+}
+
 std::vector<ReachedInequality> reached_inequalities(const Mechanism& mechanism, const ExpressionMatrix& velocity) {
   std::vector<ReachedInequality> result;
   std::size_t number = 0;
@@ -44,7 +48,7 @@ std::vector<ReachedInequality> reached_inequalities(const Mechanism& mechanism, 
     if (c.relation.kind == Relation::Kind::equal) continue;
     ++number;
     const auto is_same = [&](const ReachedInequality& r) { return same_relation(*r.end.inequality, c.relation); };
-    if (c.note.starts_with("choice of") || std::ranges::any_of(result, is_same)) continue;
+    if (is_no_end(c) || std::ranges::any_of(result, is_same)) continue;
     const std::vector<Expression> row =
         derivatives(mechanism, velocity.columns, {c.relation.lhs - c.relation.rhs}).front().first;
     bool moves = false, of_outputs = true;
@@ -54,11 +58,10 @@ std::vector<ReachedInequality> reached_inequalities(const Mechanism& mechanism, 
       of_outputs = of_outputs && velocity.roles[j] == Role::output;
     }
     if (!moves) continue;
-    std::string name = c.note.empty() ? "inequality " + std::to_string(number) : c.note;
-    const auto is_taken = [&](const ReachedInequality& r) {
-      return r.end.name == name || r.end.name.starts_with(name + ", ");
-    };
-    if (const auto n = std::ranges::count_if(result, is_taken); n > 0) name += ", " + std::to_string(n + 1);
+    const std::string own = c.note.empty() ? "inequality " + std::to_string(number) : c.note;
+    std::string name = own;
+    const auto is_taken = [&](const ReachedInequality& r) { return r.end.name == name; };
+    for (int n = 2; std::ranges::any_of(result, is_taken); ++n) name = own + ", " + std::to_string(n);
     result.push_back({{std::move(name), 0, false, c.relation}, of_outputs});
   }
   return result;

@@ -14,9 +14,13 @@ struct ReachedInequality {
   bool of_outputs = false;  ///< about outputs alone
 };
 
+/// By its note: "choice of …", whose sides are never equal, as the model says; "slice of …", where the search ends and the
+/// mechanism goes on.
+bool is_no_end(const Constraint& inequality);
+
 /// Those that a motion can reach, each once, named by their notes or by their numbers among the model's inequalities. Not
-/// one whose derivative by coordinates of more than one value is 0, nor one whose note begins with "choice of": its sides
-/// are never equal. `velocity`: has the columns that move.
+/// one whose derivative by coordinates of more than one value is 0, nor one that is_no_end(). `velocity`: has the columns
+/// that move.
 std::vector<ReachedInequality> reached_inequalities(const Mechanism& mechanism, const ExpressionMatrix& velocity);
 
 /// Is an inequality among these about the others' coordinates, and those of one value, alone? Then no motion reaches it

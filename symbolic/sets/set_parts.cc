@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "corank/core/check.h"
 #include "corank/symbolic/algebra/remembered.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/free_fold.h"
@@ -165,6 +166,7 @@ void put_into_joints(const Mechanism& mechanism, const FreeCoordinates& free, Ke
 // Of an arm with some joints at their limits: the product with the others' ranges, where that is more than a surface.
 std::optional<Component> product_at_limits(const FreeCoordinates& free, const BoundaryPart& part) {
   constexpr std::ptrdiff_t kSurface = 2;
+  if (std::ranges::any_of(part.active, [](const auto& a) { return a.inequality.has_value(); })) return std::nullopt;
   std::vector<Expression> kept;
   std::vector<std::string> others;
   for (const Coordinate& c : free.system.coordinates)
@@ -341,6 +343,7 @@ void SetEquations::set_at_limits(const BoundaryPart& part, TrigonometricSystem& 
   for (const BoundaryPart::Active& active : part.active) {
     if (active.inequality) continue;
     const auto at = std::ranges::find(system.coordinates, active.name, &Coordinate::name);
+    CORANK_CHECK(at != system.coordinates.end());
     at->lower = at->upper = active.value;
   }
   system.name += ": " + part.text();

@@ -62,9 +62,10 @@ class Writer {
 
   static std::string equation(const Constraint& c) {
     if (c.note.empty()) return c.relation.text() + ";";
-    const std::string note = one_line(c.note);
-    const bool has_name = c.relation.kind != Relation::Kind::equal && note.find('"') == std::string::npos;
-    return has_name ? "\"" + note + "\": " + c.relation.text() + ";" : c.relation.text() + ";   % " + note;
+    std::string note = one_line(c.note);
+    if (c.relation.kind == Relation::Kind::equal) return c.relation.text() + ";   % " + note;
+    std::ranges::replace(note, '"', '\'');
+    return "\"" + note + "\": " + c.relation.text() + ";";
   }
 
   std::size_t widest_limit() const {
