@@ -333,8 +333,8 @@ TEST(IdleJoints, OfRandomArmsLoseNothingOfThePicture) {
   EXPECT_GT(singular, arms);
 }
 
-// A SCARA and one direction of its hand: as many outputs as joints, so that a joint at its limit is a part. It is more than a
-// surface, and the product of the other joints' ranges.
+// A SCARA and one direction of its hand: as many outputs as joints, so that a joint at its limit is a part. It is more than
+// a surface, and the product of the other joints' ranges.
 TEST(IdleJoints, OfAnArmAtALimitArePartsThatAreProducts) {
   const char* const kArm =
       "[SYSTEM VARS]\nx : [-6, 6]\ny : [-6, 6]\nz : [-2, 2]\nw : [-2, 2]\nt1 ~\nt2 ~\nt4 ~\nd3 : [-1, 2]\n"
