@@ -63,7 +63,8 @@ solve::CostEstimate estimate(const std::vector<System>& systems, const solve::Op
     sum.whole_tree = sum.whole_tree && cost.whole_tree;
     sum.trial_seconds += cost.trial_seconds;
   }
-  if (systems.size() > 1) add(sum.file, solve::CostRange(sum.file));  // the boxes stand in the whole, and in their parts
+  if (systems.size() > 1)
+    add(sum.file, solve::CostRange(sum.file));  // twice: the boxes stand in the whole and in their parts
   if (sum.processed.likely > 0) sum.postponed = postponed / sum.processed.likely;
   return sum;
 }

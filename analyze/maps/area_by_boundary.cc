@@ -12,7 +12,6 @@
 #include "corank/solve/search/solve.h"
 #include "corank/symbolic/sets/algebrizer.h"
 #include "corank/symbolic/sets/limits.h"
-#include "corank/symbolic/sets/reached_inequalities.h"
 
 namespace corank::analyze {
 namespace {
@@ -132,8 +131,7 @@ class Grid {
 };
 
 // No configuration at an end of a range that is no limit, and no inequality of which only the model says that it ends
-// nothing. Of an output the lines at such ends are edges instead: they may
-// bound the workspace, too.
+// nothing. Of an output the lines at such ends are edges instead: they may bound the workspace, too.
 bool has_no_other_ends(const symbolic::Mechanism& model, const System& system, int x, int y, std::vector<Box>& edges,
                        solve::Control& control) {
   constexpr std::uint64_t kMost = 2000;  // boxes of a search: what takes more is not known

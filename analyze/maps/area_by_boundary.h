@@ -31,7 +31,8 @@ struct BoundaryAreaOptions {
 };
 
 /// For `question` about the set boundary, with two lengths as outputs. Nothing where the theorem does not apply: outputs
-/// that are angles or no two, a range that is no limit and may be reached, sines of lengths, a cover that a limit has ended.
+/// that are angles or no two, a range that is no limit and may be reached, an inequality that is_no_end(), sines of
+/// lengths, a cover that a limit has ended.
 std::optional<AreaBounds> area_by_boundary(const study::Question& question, const BoundaryAreaOptions& options,
                                            solve::Control& control);
 

@@ -34,14 +34,14 @@ std::string to_table(const Result& result);
 /// `observed_dimension` is null, or that of a set along which boxes stayed undecided, as samples show, where it is larger
 /// than expected: no claim. `boundary_reasons` is a list of {reason, boxes}: what `boundary` boxes are not shown to be
 /// inside of. `range_ends` is a list of {variable, reached}: declared ranges whose ends the set reaches (proven), or may
-/// reach. `ranges_found` has name: {lo,
-/// hi} of each variable without a declared range. `points` is null where the dimension is not 0, else a list of
-/// {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns as they are, angles in radians in place of their sines and
-/// cosines; of a robot from parts also joints{name: value} and links{name: {position, rotation}}, poses in the world at the
-/// middle of the point's box. `meaning` is null, or what cusps or nodes say of the robot (sentences.h); `node_distance` is
-/// null, or how far apart the two configurations of a node are at least, whose values stand side by side: x and x_2.
-/// `kernel` is null where its dimension is not known, else at_most{bound: boxes}, without undecided boxes that hold no known
-/// point, and points, where the dimension is known to be 2 or more: a list of {dimension, exact{name: text}}.
+/// reach. `ranges_found` has name: {lo, hi} of each variable without a declared range. `points` is null where the
+/// dimension is not 0, else a list of {values{name: {lo, hi}}, verdict}: lengths and kernel unknowns as they are, angles
+/// in radians in place of their sines and cosines; of a robot from parts also joints{name: value} and links{name:
+/// {position, rotation}}, poses in the world at the middle of the point's box. `meaning` is null, or what cusps or nodes
+/// say of the robot (sentences.h); `node_distance` is null, or how far apart the two configurations of a node are at
+/// least, whose values stand side by side: x and x_2. `kernel` is null where its dimension is not known, else
+/// at_most{bound: boxes}, without undecided boxes that hold no known point, and points, where the dimension is known to
+/// be 2 or more: a list of {dimension, exact{name: text}}.
 ///
 /// `types` is null where none were asked for, else RO, RPM, II, RI, IO, IIM: boxes in which every solution is of the type
 /// (null: of no interest in this mechanism), and unproven: boxes that may hold no solution, or where a type that makes up

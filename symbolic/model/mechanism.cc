@@ -5,6 +5,7 @@
 #include <iterator>
 #include <unordered_set>
 
+#include "corank/core/check.h"
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/model/model_validator.h"
 #include "corank/symbolic/model/requirement_text.h"
@@ -17,6 +18,10 @@ std::string declared_at(const SourceLocation& where) {
 }
 
 }  // namespace
+
+bool is_no_end(const Constraint& inequality) {
+  return inequality.note.starts_with("choice of ") || inequality.note.starts_with("slice of ");
+}
 
 bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && same_tree(coordinate.lower, coordinate.upper); }
 
@@ -263,7 +268,7 @@ void Mechanism::set_range(const std::string& coordinate, const Expression& lower
 void Mechanism::reach(const Relation& inequality) {
   const auto is_it = [&](const Constraint& c) { return same_relation(c.relation, inequality); };
   const auto first = std::ranges::find_if(constraints_, is_it);
-  if (first == constraints_.end()) return;
+  CORANK_CHECK(first != constraints_.end());
   Constraint equation = *first;
   equation.relation.kind = Relation::Kind::equal;
   std::erase_if(constraints_, is_it);

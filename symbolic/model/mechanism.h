@@ -76,8 +76,12 @@ struct Composite {
 struct Constraint {
   Relation relation;  ///< = : part of Φ; ≤, ≥ : an inequality that every configuration must satisfy
   SourceLocation where;
-  std::string note = {};  ///< "w @ unit" where a declaration implies it
+  std::string note = {};  ///< "w @ unit" where a declaration implies it; of an inequality its name
 };
+
+/// Ends no motion where the inequality is reached? Its name says so: "choice of …", whose sides are never equal, as the
+/// model says; "slice of …", where the search ends and the mechanism goes on.
+bool is_no_end(const Constraint& inequality);
 
 /// How far a joint moves: lower ≤ coordinate ≤ upper at every configuration. Unlike a mere range, which says where to look,
 /// the mechanism ends there: a set may ask which configurations are at a limit (boundary.h).
@@ -168,8 +172,8 @@ class Mechanism {
   void set_range(const std::string& coordinate, const Expression& lower, const Expression& upper);
   /// The same, and an angle becomes a length: the real number in that range of which the equations take the sine and cosine.
   void unroll(const std::string& angle, const Expression& lower, const Expression& upper);
-  /// Makes an inequality the equation of its two sides, behind all others: the configurations that reach it. Nothing happens
-  /// where no constraint is that.
+  /// Makes an inequality the equation of its two sides, behind all others: the configurations that reach it. It has
+  /// to be one of the constraints.
   void reach(const Relation& inequality);
 
   const std::string& name() const { return name_; }

@@ -1,7 +1,7 @@
 #include "corank/symbolic/sets/reached_inequalities.h"
 
 #include <algorithm>
-#include <optional>
+#include <iterator>
 #include <utility>
 
 #include "corank/symbolic/sets/algebrizer.h"
@@ -16,30 +16,21 @@ bool mentions(const Relation& relation, const std::string& name) {
   return relation.lhs.mentions(name) || relation.rhs.mentions(name);
 }
 
-TrigonometricSystem without_equations(const Mechanism& mechanism, std::vector<Coordinate> coordinates) {
-  TrigonometricSystem system;
-  system.name = mechanism.name();
-  system.constants = mechanism.constants();
-  system.coordinates = std::move(coordinates);
-  return system;
+// With those at a limit as ranges of one value.
+std::vector<Coordinate> at_limits(const Mechanism& mechanism, const std::vector<Active>& active) {
+  std::vector<Coordinate> all = mechanism.coordinates();
+  for (const Active& a : active)
+    if (!a.inequality)
+      for (Coordinate& c : all)
+        if (c.name == a.name) c.lower = c.upper = a.value, c.has_range = true;
+  return all;
 }
 
-// The sign of lhs − rhs, where that is a constant over these coordinates, some of which have one value.
-std::optional<int> constant_sign(const TrigonometricSystem& system, const Relation& relation) {
-  try {
-    const Polynomial gap = polynomials(system, {relation.lhs - relation.rhs}).front();
-    if (gap.monomials.empty()) return 0;
-    return gap.degree() == 0 ? gap.monomials.front().coefficient.sign() : std::nullopt;
-  } catch (const ModelError&) {  // sines of lengths
-    return std::nullopt;
-  }
+bool is_about_fixed(const Relation& relation, const std::vector<Coordinate>& all) {
+  return std::ranges::all_of(all, [&](const Coordinate& c) { return is_fixed(c) || !mentions(relation, c.name); });
 }
 
 }  // namespace
-
-bool is_no_end(const Constraint& inequality) {
-  return inequality.note.starts_with("choice of ") || inequality.note.starts_with("slice of ");
-}
 
 std::vector<ReachedInequality> reached_inequalities(const Mechanism& mechanism, const ExpressionMatrix& velocity) {
   std::vector<ReachedInequality> result;
@@ -68,34 +59,25 @@ std::vector<ReachedInequality> reached_inequalities(const Mechanism& mechanism, 
 }
 
 bool is_settled(const Mechanism& mechanism, const std::vector<Active>& active) {
-  const auto is_held = [&](const Coordinate& c) {
-    return is_fixed(c) || std::ranges::any_of(active, [&](const Active& a) { return !a.inequality && a.name == c.name; });
-  };
-  return std::ranges::any_of(active, [&](const Active& a) {
-    return a.inequality && std::ranges::all_of(mechanism.coordinates(), [&](const Coordinate& c) {
-             return !mentions(*a.inequality, c.name) || is_held(c);
-           });
-  });
+  const std::vector<Coordinate> all = at_limits(mechanism, active);
+  return std::ranges::any_of(active, [&](const Active& a) { return a.inequality && is_about_fixed(*a.inequality, all); });
 }
 
 bool is_impossible(const Mechanism& mechanism, const std::vector<Active>& active) {
-  std::vector<Coordinate> held;
-  std::vector<std::string> others;
-  for (Coordinate c : mechanism.coordinates()) {
-    const auto at = std::ranges::find_if(active, [&](const Active& a) { return !a.inequality && a.name == c.name; });
-    if (at != active.end()) c.lower = c.upper = at->value;
-    if (is_fixed(c)) {
-      held.push_back(c);
-    } else {
-      others.push_back(c.name);
-    }
-  }
-  const TrigonometricSystem system = without_equations(mechanism, held);
+  const std::vector<Coordinate> all = at_limits(mechanism, active);
+  TrigonometricSystem held;
+  held.name = mechanism.name();
+  held.constants = mechanism.constants();
+  std::ranges::copy_if(all, std::back_inserter(held.coordinates), is_fixed);
   return std::ranges::any_of(mechanism.constraints(), [&](const Constraint& c) {
-    if (c.relation.kind == Relation::Kind::equal) return false;
-    if (std::ranges::any_of(others, [&](const std::string& name) { return mentions(c.relation, name); })) return false;
-    const std::optional<int> sign = constant_sign(system, c.relation);
-    return sign && *sign == (c.relation.kind == Relation::Kind::greater_equal ? -1 : 1);
+    if (c.relation.kind == Relation::Kind::equal || !is_about_fixed(c.relation, all)) return false;
+    try {
+      const Polynomial gap = polynomials(held, {c.relation.lhs - c.relation.rhs}).front();
+      if (gap.monomials.empty() || gap.degree() > 0) return false;
+      return gap.monomials.front().coefficient.sign() == (c.relation.kind == Relation::Kind::greater_equal ? -1 : 1);
+    } catch (const ModelError&) {  // sines of lengths
+      return false;
+    }
   });
 }
 

@@ -14,10 +14,6 @@ struct ReachedInequality {
   bool of_outputs = false;  ///< about outputs alone
 };
 
-/// By its note: "choice of …", whose sides are never equal, as the model says; "slice of …", where the search ends and the
-/// mechanism goes on.
-bool is_no_end(const Constraint& inequality);
-
 /// Those that a motion can reach, each once, named by their notes or by their numbers among the model's inequalities. Not
 /// one whose derivative by coordinates of more than one value is 0, nor one that is_no_end(). `velocity`: has the columns
 /// that move.

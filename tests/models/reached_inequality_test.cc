@@ -220,6 +220,19 @@ TEST(ReachedInequalities, AreNamedByTheirNamesOrNumbers) {
   EXPECT_THROW(names_of_parts("\"name\": cos(a) = 0;"), symbolic::ModelError);
 }
 
+// A slice that meets a joint's limit is an inequality: at its other end the search ends, and the robot goes on.
+TEST(ReachedInequalities, SlicesAreNone) {
+  const study::Model robot = study::parse_model(
+      {"[LINKS]\nbase : point O (0, 0, 0)\narm : point E (1, 0, 0)\nfore : point H (1/2, 0, 0)\n[JOINTS]\n"
+       "revolute q : base O + (0, 0, 1)  arm (0, 0, 0) + (0, 0, 1)  zero (1, 0, 0) (1, 0, 0)  range [-pi/2, pi/2]\n"
+       "revolute e : arm E + (0, 0, 1)  fore (0, 0, 0) + (0, 0, 1)\n[OUTPUTS]\n"
+       "f : orientation of arm  range phi [0, pi/2]\np : position of fore.H only x\n",
+       "arm.cuik"});
+  std::vector<std::string> names;
+  for (const symbolic::BoundaryPart& part : symbolic::boundary_parts(robot.mechanism)) names.push_back(part.text());
+  EXPECT_THAT(names, testing::ElementsAre("no limit", "q at its upper limit")) << "the lower limit is not in the slice";
+}
+
 // A result file has the equations of a robot from parts as text.
 TEST(ReachedInequalities, OfPartsAreVerifiedInAResultFile) {
   const study::Model robot = study::parse_model(
