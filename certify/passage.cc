@@ -202,10 +202,13 @@ Interval PassageTest::along_normal(const std::vector<double>& side, const Box& b
 bool PassageTest::holds(const Claim& claim, const Box& sides) const {
   Box box = sides;
   if (!enclose_multipliers(box)) return false;
-  const Interval along = along_normal(claim.side, box);
   const bool barrier = claim.passage == Passage::barrier;
-  // Hypothesis (1), and of a barrier that −sign·n is on the side named.
-  if (along.contains_zero() || (barrier && (claim.sign > 0) != (along.hi() < 0))) return false;
+  if (barrier && !form_->has_slacks) return false;
+  if (!form_->normal.empty()) {
+    const Interval along = along_normal(claim.side, box);
+    // Hypothesis (1), and of a barrier that −sign·n is on the side named.
+    if (along.contains_zero() || (barrier && (claim.sign > 0) != (along.hi() < 0))) return false;
+  }
   Basis basis;
   if (!choose(box, basis)) return false;
   const std::optional<IntervalMatrix> form = reduce(box, basis);
@@ -275,7 +278,7 @@ PassageTest::Claim PassageTest::guess(const Box& box) const {
       if (value(normal(static_cast<int>(i)), whole).contains_zero()) claim.side[i] = 0;
   double size = 0;
   for (const double x : claim.side) size = std::hypot(size, x);
-  if (!(size > 0) || !std::isfinite(size) || plus + minus == 0) return claim;
+  if (plus + minus == 0 || (!form_->normal.empty() && (!(size > 0) || !std::isfinite(size)))) return claim;
   claim.passage = plus > 0 && minus > 0 ? Passage::traversable : Passage::barrier;
   claim.sign = plus > 0 ? 1 : -1;
   // The output stays where n·ü = −Q: at −n for a positive form.

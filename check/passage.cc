@@ -27,6 +27,7 @@ PassageCheck::PassageCheck(const System& system, const StopFlag& stop)
   jacobian_ = entries_of({form.equations, form.columns, form.jacobian}, variables);
   hessian_ = rows_of(form.hessian, variables);
   slack_ = rows_of(form.slack, variables);
+  has_slacks_ = form.has_slacks;
   normal_ = rows_of(form.normal, variables);
   RowMatrix all = jacobian_;
   all.insert(all.end(), {hessian_, slack_, normal_});
@@ -86,7 +87,7 @@ std::optional<std::vector<Sides>> PassageCheck::form(const Sides& x) const {
 bool PassageCheck::holds_with_multipliers(const CoverBox& box, const Sides& x) const {
   Enclosure along;  // n·side
   for (std::size_t i = 0; i < normal_.size(); ++i) along.add_product(box.side[i], normal_[i].value(x));
-  if (along.has_zero()) return false;
+  if (along.has_zero() && !normal_.empty()) return false;
   const auto s = form(x);
   if (!s) return false;
   Sides slack;
@@ -99,11 +100,14 @@ bool PassageCheck::holds_with_multipliers(const CoverBox& box, const Sides& x) c
     const bool minus = std::ranges::any_of(slack, &Enclosure::is_negative);
     return plus && minus;
   }
-  const int sign = along.is_negative() ? 1 : -1;  // the outputs are at −n where the form is positive
-  for (const Enclosure& mu : slack)
-    if (!(sign > 0 ? mu.is_positive() : mu.is_negative())) return false;
+  if (!has_slacks_) return false;
   const std::optional<Inertia> signs = inertia(*s);
-  return signs && (sign > 0 ? signs->negative : signs->positive) == 0;
+  const auto is_definite = [&](int sign) {
+    const auto has_sign = [sign](const Enclosure& mu) { return sign > 0 ? mu.is_positive() : mu.is_negative(); };
+    return signs && (sign > 0 ? signs->negative : signs->positive) == 0 && std::ranges::all_of(slack, has_sign);
+  };
+  if (normal_.empty()) return is_definite(1) || is_definite(-1);
+  return is_definite(along.is_negative() ? 1 : -1);  // the outputs are at −n where the form is positive
 }
 
 bool PassageCheck::holds(const CoverBox& box, const Sides& part) const {
@@ -123,7 +127,8 @@ std::string PassageCheck::fault(const CoverBox& box) const {
   if (!has_form_) return "it says whether the output can pass, but nothing decides that here";
   double length = 0;
   for (const double d : box.side) length = std::hypot(length, d);
-  if (box.side.size() != normal_.size() || !(std::fabs(length - 1) < 1e-9)) return "its side is not a unit vector";
+  if (box.side.size() != normal_.size() || (!normal_.empty() && !(std::fabs(length - 1) < 1e-9)))
+    return "its side is not a unit vector";
   const bool shown = shown_in_parts(Sides(box.box.begin(), box.box.end()), arguments_, lengths_, kMostPassageParts, stop_,
                                     [&](Sides& x) { return holds(box, x) || !contract(x) || holds(box, x); });
   if (shown) return "";

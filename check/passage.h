@@ -32,7 +32,7 @@ class PassageCheck {
   bool contract(Sides& x) const;
 
   StopFlag stop_;
-  bool has_form_ = false;
+  bool has_form_ = false, has_slacks_ = false;
   std::size_t columns_ = 0;
   RowMatrix jacobian_;
   std::vector<Row> hessian_, slack_, normal_, equations_, inequalities_;

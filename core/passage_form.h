@@ -18,7 +18,7 @@ namespace corank {
 /// Of the configurations of a box where no further limit is reached (doc/theory.md, "Barriers").
 enum class Passage : std::uint8_t {
   unproven,
-  barrier,     ///< nearby configurations have their outputs on one side of the boundary: that of CoverBox::side
+  barrier,  ///< nearby configurations have their outputs on one side of the boundary: that of CoverBox::side, if it has one
   traversable  ///< there are paths that bring the output from one side to the other
 };
 inline constexpr int kPassages = 3;
@@ -29,7 +29,8 @@ struct PassageForm {
   std::vector<Polynomial> jacobian;  ///< Φ_z, row by row; rows and columns times positive numbers, in no unit
   std::vector<Polynomial> hessian;   ///< λᵀ Φ_{z_j z_k} for k ≥ j, row by row, times those of columns j and k
   std::vector<Polynomial> slack;     ///< s_i λᵀ Φ_{q_i}: s_i = −1 at an upper limit, 1 at a lower one
-  std::vector<Polynomial> normal;    ///< n
+  bool has_slacks = true;            ///< else they need further coordinates, and nothing is a barrier
+  std::vector<Polynomial> normal;    ///< n; none where ‖n‖ = ‖λ‖, but a side needs further coordinates
   /// Of each equation the variable that λ's component is a positive multiple of. None: the system has no λ. Its polynomials
   /// then count λ's components behind the system's variables, and λ spans the left kernel of Φ_z.
   std::vector<int> multipliers;

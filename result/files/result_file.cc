@@ -46,7 +46,7 @@ constexpr auto kTypeFields = [](auto& field, auto& box) {
   field.packed("types_excluded", box.types.excluded, kAllTypes);
 };
 
-// Of a workspace boundary; a side that is not proven is stored as zeros.
+// Of a workspace boundary; no side is stored as zeros.
 auto passage_fields(std::size_t outputs) {
   return [outputs](auto& field, auto& box) {
     field.word("passage", box.passage, kPassageWords);
@@ -58,7 +58,7 @@ auto passage_fields(std::size_t outputs) {
       field.row("side", std::as_const(side), outputs);
     } else {
       field.row("side", side, outputs);
-      if (box.passage != Passage::unproven) box.side = std::move(side);
+      if (std::ranges::any_of(side, [](double x) { return x != 0; })) box.side = std::move(side);
     }
   };
 }

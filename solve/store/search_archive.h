@@ -48,7 +48,7 @@ void serialize(auto& archive, Variable& v) {
 }
 void serialize(auto& archive, Angle& a) { archive(a.name, a.cosine, a.sine, a.range); }
 void serialize(auto& archive, PassageForm& f) {
-  archive(f.equations, f.columns, f.jacobian, f.hessian, f.slack, f.normal, f.multipliers);
+  archive(f.equations, f.columns, f.jacobian, f.hessian, f.slack, f.has_slacks, f.normal, f.multipliers);
 }
 
 void serialize(auto& archive, PolynomialMatrix& m) { archive(m.rows, m.columns, m.entries); }

@@ -84,6 +84,42 @@ TEST(PassageOfABoundary, NeedsANormalAndAMultiplier) {
   EXPECT_FALSE(PassageTest(tolerant).applies());
 }
 
+// Where a side would need coordinates that the system does not have.
+TEST(PassageOfABoundary, IsFoundWithoutANormal) {
+  test::PassagePlanter planter(7);
+  const UpwardRounding rounding;
+  int lost = 0;
+  for (int i = 0; i < 200; ++i) {
+    test::PlantedPassage p = planter.plant(3, i % 3, i % 3 == 0 ? 2 : i % 2, i % 5 == 0, i % 2 == 0);
+    p.system.passage->normal.clear();
+    const PassageTest::Finding found = PassageTest(p.system).of(p.box(1e-7));
+    EXPECT_TRUE(found.side.empty());
+    if (found.passage == Passage::unproven) {
+      lost += p.is_barrier() || p.is_traversable();
+    } else {
+      EXPECT_TRUE(found.passage == Passage::barrier ? p.is_barrier() : p.is_traversable());
+    }
+  }
+  EXPECT_LE(lost, 4);
+}
+
+// The slacks are what is planted behind the form's numbers: without them its own signs may be one or both.
+TEST(PassageOfABoundary, IsNoBarrierWithoutTheSlacks) {
+  test::PassagePlanter planter(8);
+  const UpwardRounding rounding;
+  int traversable = 0;
+  for (int i = 0; i < 200; ++i) {
+    test::PlantedPassage p = planter.plant(3, 1 + i % 3, 1, 0, i % 2 == 0);
+    p.system.passage->slack.clear();
+    p.system.passage->has_slacks = false;
+    const Passage passage = PassageTest(p.system).of(p.box(1e-7)).passage;
+    EXPECT_NE(passage, Passage::barrier);
+    EXPECT_TRUE(passage != Passage::traversable || p.is_traversable());
+    traversable += passage == Passage::traversable;
+  }
+  EXPECT_GT(traversable, 20);
+}
+
 // Where Φ_z loses another rank, λ is one of many.
 TEST(PassageOfABoundary, NeedsAKernelOfOneDimension) {
   test::PassagePlanter planter(6);

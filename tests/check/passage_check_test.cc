@@ -52,6 +52,31 @@ TEST(PassageCheck, RejectsSidesThatAreNone) {
   EXPECT_TRUE(holds(p, 1e-8, Passage::unproven, {}));
 }
 
+TEST(PassageCheck, NeedsNoSideWhereThereIsNoNormal) {
+  test::PassagePlanter planter(15);
+  for (int i = 0; i < 120; ++i) {
+    test::PlantedPassage p = planter.plant(3, i % 3, i % 3 == 0 ? 2 : i % 2, i % 5 == 0, i % 2 == 0);
+    const std::vector<double> side = p.side();
+    p.system.passage->normal.clear();
+    EXPECT_EQ(holds(p, 1e-8, Passage::barrier, {}), p.is_barrier());
+    EXPECT_EQ(holds(p, 1e-8, Passage::traversable, {}), p.is_traversable());
+    EXPECT_FALSE(holds(p, 1e-8, Passage::barrier, side));
+  }
+}
+
+TEST(PassageCheck, NeedsTheSlacksForABarrier) {
+  test::PassagePlanter planter(16);
+  int barriers = 0;
+  for (int i = 0; i < 60; ++i) {
+    test::PlantedPassage p = planter.plant(2, 1, 1, 0, i % 2 == 0);
+    barriers += holds(p, 1e-8, Passage::barrier, p.side());
+    p.system.passage->slack.clear();
+    p.system.passage->has_slacks = false;
+    EXPECT_FALSE(holds(p, 1e-8, Passage::barrier, p.side()));
+  }
+  EXPECT_GT(barriers, 10);
+}
+
 TEST(PassageCheck, KnowsOfNoPassageWithoutAForm) {
   test::PassagePlanter planter(13);
   test::PlantedPassage p = planter.plant(2, 0, 1);
