@@ -11,12 +11,15 @@
 #include "corank/report/pictures/picture.h"
 #include "corank/report/pictures/portrait.h"
 #include "corank/study/cut.h"
+#include "corank/study/images.h"
 
 namespace corank::app {
 namespace {
 
 const std::map<std::string, report::ColorScheme> kSchemes{
     {"set", report::ColorScheme::set}, {"verdict", report::ColorScheme::verdict}, {"plain", report::ColorScheme::plain}};
+
+constexpr std::uint64_t kMostImages = 1'000'000;
 
 struct PlotCommand {
   std::vector<std::string> inputs;
@@ -44,6 +47,28 @@ std::vector<int> shown_variables(const result::Result& result, const std::vector
   return {shown.begin(), shown.end()};
 }
 
+/// Is some box as wide as the picture, as one of a part is that lacks sides for what is shown?
+bool has_whole_ranges(const result::Result& result) {
+  return std::ranges::any_of(result.cover.boxes, [&](const CoverBox& box) {
+    for (std::size_t v = 0; v < box.box.size(); ++v)
+      if (!(box.box[v] == result.variables[v].domain)) return false;
+    return true;
+  });
+}
+
+/// The first of the axes that no part has sides for, though it is no joint over whose range one is a product; or none.
+std::string lacking_axis(const result::Result& result, const std::vector<std::string>& axes) {
+  if (!study::lacks_sides(result)) return "";
+  const auto lacks = [&](const std::string& axis) {
+    return result::has_coordinate(result, axis) && std::ranges::none_of(result.parts, [&](const result::Result& part) {
+             const std::vector<std::string> left_out = result::left_out(part);
+             return result::has_coordinate(part, axis) || std::ranges::find(left_out, axis) != left_out.end();
+           });
+  };
+  const auto axis = std::ranges::find_if(axes, lacks);
+  return axis == axes.end() ? "" : *axis;
+}
+
 /// Of a result nothing is copied, and what the picture does not show is not read, unless sheets are to be cut: it is kept in
 /// the list.
 report::PictureSource read_source(const PlotCommand& command, const std::string& path, std::list<result::Result>& results,
@@ -53,12 +78,24 @@ report::PictureSource read_source(const PlotCommand& command, const std::string&
   const result::Reading reading{.free = false,
                                 .sides = [&](const result::Result& r) { return shown_variables(r, command.picture.axes); }};
   result::Result& result = results.emplace_back(result::read_result(path, reading));
-  // Does a part lack sides for outputs? That is not read so, but such a result is small.
-  constexpr std::size_t kFewBoxes = 10'000;
-  if (result.cover.boxes.size() <= kFewBoxes) result = result::read_result(path);
+  if (has_whole_ranges(result)) result = result::read_result(path);
+  const std::string axis = lacking_axis(result, command.picture.axes);
+  const auto refuse = [&] {
+    throw UsageError(
+        fmt::format("--axes {}: {}: the set is known in an arm's joints, and would be too many boxes over {}; expected "
+                    "joints as axes, or a model that holds one of them by a range of one value",
+                    fmt::join(command.picture.axes, ","), path, axis));
+  };
+  if (!axis.empty() && !study::can_have_images(result, kMostImages)) refuse();
   if (study::is_whole(result)) {
     run.enter("cutting the sheets");
     result = study::cut(result::read_result(path), {.threads = 0}, run.control());
+  }
+  if (!axis.empty()) {
+    run.enter("finding the outputs");
+    std::optional<result::Result> images = study::with_images(result, kMostImages);
+    if (!images) refuse();
+    result = std::move(*images);
   }
   return report::picture_view(result, path);
 }

@@ -13,6 +13,7 @@
 #include "corank/result/values/sentences.h"
 #include "corank/study/answer.h"
 #include "corank/study/cut.h"
+#include "corank/study/images.h"
 #include "corank/symbolic/sets/set_parts.h"
 
 namespace corank::app {
@@ -87,6 +88,7 @@ ReadView read_one(const std::string& path) {
   auto [result, model, system] = result::read_to_show(path);
   const std::size_t uncut = study::is_whole(result) ? result.cover.boxes.size() : 0;
   if (uncut > 0) result = study::cut_for_page(result, {.threads = 0}, report::kPageBoxes, {});
+  if (auto images = study::with_images(result, report::kPageBoxes)) result = std::move(*images);
   report::SetView view = report::set_view(model, std::move(result), std::move(system));
   ReadView read{path, std::move(model), std::move(view)};
   if (uncut > 0) note_cut(uncut, read.view);

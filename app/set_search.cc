@@ -11,6 +11,7 @@
 #include "corank/result/files/verification.h"
 #include "corank/study/answer.h"
 #include "corank/study/cut.h"
+#include "corank/study/images.h"
 
 namespace corank::app {
 using symbolic::SingularitySet;
@@ -114,6 +115,7 @@ std::optional<report::SetView> solve_view(const SetSearch& search, study::Questi
     page.surfaces_whole = page.proof = false;
     result = study::cut_for_page(result, page, search.limits.max_found, limits_of_set, control.search_progress);
   }
+  if (auto images = study::with_images(result, report::kPageBoxes)) result = std::move(*images);
   System system =
       systems.parts.front().part ? result::system_of(question.model, result) : std::move(systems.of_parts.front());
   const solve::Control of_view(limits_of_set);

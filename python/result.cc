@@ -18,6 +18,7 @@
 #include "corank/result/values/summary.h"
 #include "corank/result/values/tallies.h"
 #include "corank/study/cut.h"
+#include "corank/study/images.h"
 
 namespace corank::python {
 
@@ -170,6 +171,7 @@ py::dict words(const Result& r) {
 const result::Result& Result::cut(Cut& known, std::uint64_t most) const {
   std::call_once(known.once, [&] {
     if (study::is_whole(*value_)) known.value = study::cut_for_page(*value_, {.threads = 0}, most, {});
+    if (auto images = study::with_images(known.value ? *known.value : *value_, most)) known.value = std::move(images);
   });
   return known.value ? *known.value : *value_;
 }

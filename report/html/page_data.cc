@@ -144,14 +144,17 @@ Json conditions(const SetView& view) {
           {"equations", each(view.conditions, [](const std::vector<Polynomial>& list) { return polynomials(list); })}};
 }
 
-// The variables that no part's boxes have sides for.
+// The variables that no part has, and the boxes no sides for.
 Json variables_left_out(const result::Result& result) {
   Json list = Json::array();
   for (int v = 0; v < result.configuration_size && !result.parts.empty(); ++v)
-    if (std::ranges::none_of(result.parts, [&](const result::Result& part) {
-          return std::ranges::find(part.variables, result.variables[v].name, &result::ResultVariable::name) !=
-                 part.variables.end();
-        }))
+    if (std::ranges::none_of(result.parts,
+                             [&](const result::Result& part) {
+                               return std::ranges::find(part.variables, result.variables[v].name,
+                                                        &result::ResultVariable::name) != part.variables.end();
+                             }) &&
+        std::ranges::all_of(result.cover.boxes,
+                            [&](const CoverBox& box) { return box.box[v] == result.variables[v].domain; }))
       list.push_back(v);
   return list;
 }

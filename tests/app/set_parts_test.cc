@@ -89,9 +89,11 @@ TEST(SetPartsOnTheCommandLine, OfALargeSetLeaveOutCoordinates) {
   const Outcome refused = run_corank({"verify", folder.file("claimed.h5")});
   EXPECT_EQ(refused.status, 1);
   EXPECT_THAT(refused.out, AllOf(HasSubstr("theta3 is not free"), HasSubstr("hand_x is not free")));
-  // Pictures may have axes that are left out; nobody chooses them unasked.
+  // Pictures may have joints that are left out as axes; nobody chooses them unasked. The hand follows from five joints.
   EXPECT_EQ(run_corank({"plot", folder.file("r.h5"), "--axes", "theta2,theta3", "-o", folder.file("p.svg")}).status, 0);
-  EXPECT_EQ(run_corank({"plot", folder.file("r.h5"), "--axes", "hand_x,theta3", "-o", folder.file("q.svg")}).status, 0);
+  const Outcome hand = run_corank({"plot", folder.file("r.h5"), "--axes", "hand_x,theta3", "-o", folder.file("q.svg")});
+  EXPECT_EQ(hand.status, 2);
+  EXPECT_THAT(hand.err, HasSubstr("would be too many boxes over hand_x"));
   const Outcome page = run_corank({"report", "--results", folder.file("r.h5"), "-o", folder.file("page.html")});
   EXPECT_EQ(page.status, 0) << page.err;
   EXPECT_THAT(read_text(folder.file("page.html/figures/output-portrait.svg")),
