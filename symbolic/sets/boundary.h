@@ -18,6 +18,7 @@
 // sin τ in place of a limited coordinate gives the same configurations, each several times.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,15 @@
 #include "corank/symbolic/sets/singularity_system.h"
 
 namespace corank::symbolic {
+
+/// Of an arm whose joints q give its outputs, u = f(q), what decides about a part's passages, in a frame R(q) in which it is
+/// short. One row for each output.
+struct OutputMotion {
+  /// R ∂f/∂q_j of the joints that are free, of those at their limits, R ∂²f/∂q_j∂q_k of the free ones for k ≥ j, and R.
+  ExpressionMatrix entries;
+  std::size_t free = 0, active = 0;  ///< how many joints these are
+  std::vector<std::string> sizes;    ///< of the free ones, as coordinate_sizes()
+};
 
 struct BoundaryPart {
   struct Active {
@@ -44,6 +54,7 @@ struct BoundaryPart {
   /// In place of λᵀ Φ_{z_j} = 0, where these say that a square matrix is singular, and that is a union. Or, without a name
   /// and a condition, the joints of an arm in which a part without λ is a product.
   std::optional<Component> component{};
+  std::shared_ptr<const OutputMotion> motion{};  ///< of an arm's part in joints (arm_boundary.h)
 
   /// "no limit", "theta2 at its upper limit, range of elbow reached", "no limit: sin(theta2) = 0".
   std::string text() const;

@@ -7,6 +7,7 @@
 #include "corank/core/check.h"
 #include "corank/symbolic/algebra/remembered.h"
 #include "corank/symbolic/sets/algebrizer.h"
+#include "corank/symbolic/sets/arm_boundary.h"
 #include "corank/symbolic/sets/free_fold.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/symbolic/sets/part_names.h"
@@ -39,12 +40,6 @@ std::vector<std::string> joints(const SetPart& part) {
 }
 
 namespace {
-
-// Of an arm whose singularities are more than a surface.
-bool is_large(const FreeCoordinates& joints) {
-  constexpr long kLeastFree = 4;
-  return std::ranges::count_if(joints.system.coordinates, std::not_fn(is_fixed)) >= kLeastFree;
-}
 
 // False where some part has a kernel vector, or a condition that is not about joints.
 bool leave_out_coordinates(const FreeCoordinates& free, std::vector<Component>& parts) {
@@ -130,82 +125,66 @@ std::vector<Component> space_of_joints(const std::optional<FreeCoordinates>& fre
   return {std::move(all)};
 }
 
-// Of an arm with a large set in its joints, if that can be done.
+// Of an arm with a large set in its joints, if that can be done. `in_joints`: it has to.
 std::vector<Component> components(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended,
-                                  const std::optional<FreeCoordinates>* known = nullptr) {
+                                  const std::optional<FreeCoordinates>* known = nullptr, bool in_joints = false) {
   std::vector<Component> parts = decompose(mechanism, kernel, ended);
   const bool is_wide = kernel.matrix.columns.size() > kernel.matrix.rows.size();
   if (parts.empty() && !is_wide) return parts;
   const std::optional<FreeCoordinates> free = known != nullptr ? *known : free_coordinates(mechanism);
-  if (parts.empty()) return free && is_large(*free) ? lost_rank(mechanism, kernel, *free, ended) : parts;
-  std::vector<Component> in_joints = parts;
-  const bool leaves_out = free && is_large(*free) && leave_out_coordinates(*free, in_joints);
-  parts = leaves_out ? std::move(in_joints) : simplified(mechanism, std::move(parts), ended);
+  const bool many = free && (in_joints || is_large(*free));
+  if (parts.empty()) return many ? lost_rank(mechanism, kernel, *free, ended) : parts;
+  std::vector<Component> short_ones = parts;
+  const bool leaves_out = many && leave_out_coordinates(*free, short_ones);
+  parts = leaves_out ? std::move(short_ones) : simplified(mechanism, std::move(parts), ended);
   name_by_values(mechanism, parts);
   return parts;
 }
 
-// Of an arm the outputs' derivatives by its joints, which have lost rank where the kernel's matrix has: the equations of all
-// other coordinates have each an entry 1 of their own.
-void put_into_joints(const Mechanism& mechanism, const FreeCoordinates& free, KernelQuestion& kernel) {
-  std::map<std::string, Expression> values;
-  for (const Relation& r : free.given) values.emplace(r.lhs.name(), r.rhs.substituted(values));
-  std::vector<Expression> outputs;
-  for (const std::string& u : mechanism.outputs())
-    if (const auto value = values.find(u); value != values.end()) outputs.push_back(value->second);
-  ExpressionMatrix matrix;
-  for (const Coordinate& c : free.system.coordinates)
-    if (std::ranges::find(kernel.matrix.columns, c.name) != kernel.matrix.columns.end()) {
-      matrix.columns.push_back(c.name);
-      matrix.roles.push_back(role_of(mechanism, c.name));
-    }
-  for (Derivatives& d : derivatives(mechanism, matrix.columns, outputs)) matrix.rows.push_back(std::move(d.first));
-  kernel.matrix = std::move(matrix);
-}
-
-// Of an arm with some joints at their limits: the product with the others' ranges, where that is more than a surface.
-std::optional<Component> product_at_limits(const FreeCoordinates& free, const BoundaryPart& part) {
-  constexpr std::ptrdiff_t kSurface = 2;
-  if (std::ranges::any_of(part.active, [](const auto& a) { return a.inequality.has_value(); })) return std::nullopt;
-  std::vector<Expression> kept;
-  std::vector<std::string> others;
-  for (const Coordinate& c : free.system.coordinates)
-    if (std::ranges::find(part.active, c.name, &BoundaryPart::Active::name) != part.active.end()) {
-      kept.push_back(Expression::symbol(c.name));
-    } else if (!is_fixed(c)) {
-      others.push_back(c.name);
-    }
-  if (kept.size() < part.active.size() || std::ssize(others) <= kSurface) return std::nullopt;
-  kept.push_back(Expression::symbol(others.front()));  // stands in for them
-  auto factor = mentioned_coordinates(free, kept);
-  if (!factor) return std::nullopt;
-  Component product;
-  product.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
-  product.joints = names_of(free.system.coordinates);
-  return product;
-}
-
-// Of a workspace's boundary. `free`: of the mechanism.
-std::vector<BoundaryPart> without_multipliers(const Mechanism& mechanism, const std::optional<FreeCoordinates>& free,
-                                              BoundaryPart part, const Ended& ended) {
-  if (part.of_output) return {part};
-  KernelQuestion kernel = boundary_kernel(mechanism, part);
-  part.has_multipliers = kernel.matrix.columns.size() >= kernel.matrix.rows.size();
-  if (free && !part.has_multipliers) part.component = product_at_limits(*free, part);
-  std::vector<Component> conditions;
-  if (part.active.empty()) {  // the many others would take long
-    if (free) put_into_joints(mechanism, *free, kernel);
-    conditions = components(mechanism, kernel, ended, &free);
-  }
-  if (conditions.empty() || std::ranges::any_of(conditions, [](const Component& c) { return c.block.has_value(); }))
-    return {part};
+// The part, once for each of its components in place of λ.
+std::vector<BoundaryPart> with_components(const BoundaryPart& part, std::vector<Component> components) {
   std::vector<BoundaryPart> result;
-  for (Component& component : conditions) {
+  for (Component& component : components) {
     result.push_back(part);
     result.back().has_multipliers = false;
     result.back().component = std::move(component);
   }
   return result;
+}
+
+// Of an arm's boundary, in joints. Nothing where that cannot be.
+std::vector<BoundaryPart> in_joints(const ArmBoundary& arm, BoundaryPart part, const Ended& ended) {
+  const std::optional<ArmBoundary::Question> asked = arm.question(part, ended);
+  if (!asked) return {};
+  const std::optional<FreeCoordinates> free = asked->free;
+  const ExpressionMatrix& m = asked->kernel.matrix;
+  if (asked->is_everywhere && m.columns.size() >= m.rows.size()) {  // more than a surface
+    std::optional<Component> product = product_at_limits(*free, part);
+    return product ? with_components(part, {std::move(*product)}) : std::vector<BoundaryPart>{};
+  }
+  std::vector<Component> all{Component{}};
+  if (!asked->is_everywhere) {
+    all = components(asked->joints, asked->kernel, ended, &free, true);
+    if (all.empty()) all = {Component{.name = "a kernel vector", .block = m}};
+  }
+  for (Component& component : all)
+    if (!put_in_factor(*free, *asked->motion, component)) return {};
+  part.motion = asked->motion;
+  return with_components(part, std::move(all));
+}
+
+// Of a workspace's boundary. `free`: of the mechanism.
+std::vector<BoundaryPart> without_multipliers(const Mechanism& mechanism, const std::optional<FreeCoordinates>& free,
+                                              BoundaryPart part, const Ended& ended) {
+  KernelQuestion kernel = boundary_kernel(mechanism, part);
+  part.has_multipliers = kernel.matrix.columns.size() >= kernel.matrix.rows.size();
+  if (free && !part.has_multipliers) part.component = product_at_limits(*free, part);
+  if (!part.active.empty()) return {part};  // the many would take long
+  if (free) put_into_joints(mechanism, *free, kernel);
+  std::vector<Component> conditions = components(mechanism, kernel, ended, &free);
+  if (conditions.empty() || std::ranges::any_of(conditions, [](const Component& c) { return c.block.has_value(); }))
+    return {part};
+  return with_components(part, std::move(conditions));
 }
 
 struct WithOutputs {
@@ -235,8 +214,16 @@ std::vector<SetPart> found_boundary(const Mechanism& mechanism, const Ended& end
   std::vector<BoundaryPart> parts = boundary_parts(mechanism);
   const Mechanism moving = without_idle(mechanism.without_rates(), parts.front().idle);
   const std::optional<FreeCoordinates> free = free_coordinates(moving);
-  for (BoundaryPart& part : parts)
-    for (BoundaryPart& one : without_multipliers(moving, free, std::move(part), ended)) result.emplace_back(std::move(one));
+  const std::optional<ArmBoundary> arm = ArmBoundary::of(moving, free, ended);
+  for (BoundaryPart& part : parts) {
+    std::vector<BoundaryPart> all;
+    if (part.of_output)
+      all = {std::move(part)};
+    else if (arm)
+      all = in_joints(*arm, part, ended);
+    if (all.empty()) all = without_multipliers(moving, free, std::move(part), ended);
+    for (BoundaryPart& one : all) result.emplace_back(std::move(one));
+  }
   return result;
 }
 
@@ -281,7 +268,8 @@ bool add_outputs(const Mechanism& mechanism, SetPart& part) {
 void add_claims(const Mechanism& mechanism, SingularitySet set, const SetPart& part, const TrigonometricSystem& equations,
                 System& compiled) {
   if (const auto* limits = std::get_if<BoundaryPart>(&part))
-    compiled.passage = passage_form(mechanism, *limits, equations, compiled);
+    compiled.passage = limits->motion ? passage_form_in_joints(*limits, equations, compiled)
+                                      : passage_form(mechanism, *limits, equations, compiled);
   if (has_labels(part, compiled)) compiled.singular = singular_matrix(mechanism, set);
 }
 

@@ -31,7 +31,8 @@ std::vector<std::string> joints(const SetPart& part);
 /// boundary_parts(), requirement_parts(), or decompose(). Throws ModelError as these do.
 /// A boundary's parts are without λ where that can be: all configurations with the largest number of limits reached are in
 /// their part. The part without limits is one for each of its components, where its matrix, or of an arm that of the outputs
-/// by the joints, becomes square and none of them has a block.
+/// by the joints, becomes square and none of them has a block. Of an arm of many joints all parts are about these
+/// (arm_boundary.h).
 /// Of an arm whose singularities have dimension 3 or more, a part is about the joints alone that its condition or a range
 /// mentions: it is the product of what is found there and of the other joints' ranges, and all other coordinates follow from
 /// the joints (free_coordinates.h). In all coordinates such a set would be too large for boxes.

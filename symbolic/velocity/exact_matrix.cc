@@ -290,7 +290,7 @@ RationalPolynomial ExactMatrix::normal(RationalPolynomial f) const {
   return f;
 }
 
-void ExactMatrix::put_into_free_coordinates(const Ended& ended) {
+void ExactMatrix::put_into_free_coordinates(const Ended& ended, std::optional<std::size_t> leading) {
   constexpr std::size_t kLongest = 20'000;
   if (!is_explicit()) return;
   std::vector<Explicit> values;
@@ -316,13 +316,14 @@ void ExactMatrix::put_into_free_coordinates(const Ended& ended) {
   in_free_coordinates_ = true;
   for (bool any = true; std::exchange(any, false);)
     for (std::size_t i = 0; i < size(); ++i)
-      for (std::size_t j = i + 1; j < size(); ++j) any = (!is_over(ended) && turn_rows(i, j)) || any;
+      for (std::size_t j = i + 1; j < size(); ++j)
+        any = (!is_over(ended) && turn_rows(i, j, leading.value_or(columns_.size()))) || any;
 }
 
 // By the first angle that helps.
-bool ExactMatrix::turn_rows(std::size_t first, std::size_t second) {
-  const auto length = [](const std::vector<RationalPolynomial>& row) {
-    return std::accumulate(row.begin(), row.end(), std::size_t{0},
+bool ExactMatrix::turn_rows(std::size_t first, std::size_t second, std::size_t leading) {
+  const auto length = [leading](const std::vector<RationalPolynomial>& row) {
+    return std::accumulate(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(leading), std::size_t{0},
                            [](std::size_t sum, const RationalPolynomial& entry) { return sum + entry.size(); });
   };
   const std::size_t before = length(rows_[first]) + length(rows_[second]);

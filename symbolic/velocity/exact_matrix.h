@@ -58,8 +58,9 @@ class ExactMatrix {
   /// Writes M in the coordinates that are left where Φ gives all others; then turns pairs of rows by angles, r_i ↦
   /// cos(θ)·r_i ± sin(θ)·r_j and r_j ↦ cos(θ)·r_j ∓ sin(θ)·r_i, while that makes entries shorter: a frame that turns with
   /// a link does not see the joints before it. At every configuration det M is the same. Where Φ does not, entries get
-  /// too long, or `ended` says so, M is left as it is.
-  void put_into_free_coordinates(const Ended& ended = {});
+  /// too long, or `ended` says so, M is left as it is. `leading`: the rows are made short in so many columns, the others are
+  /// turned with them; else in all.
+  void put_into_free_coordinates(const Ended& ended = {}, std::optional<std::size_t> leading = {});
 
   /// Does every equation of Φ give a coordinate so?
   bool is_explicit() const { return explicit_.size() == equations_; }
@@ -82,7 +83,7 @@ class ExactMatrix {
   };
   RationalPolynomial without_squares(const RationalPolynomial& f, std::size_t gone, std::size_t kept) const;
   RationalPolynomial normal(RationalPolynomial f) const;  // no square of a sine or of √a: 0 where these show it
-  bool turn_rows(std::size_t first, std::size_t second);
+  bool turn_rows(std::size_t first, std::size_t second, std::size_t leading);
 
   SourceLocation where_;
   std::unique_ptr<Unknowns> unknowns_;
