@@ -204,7 +204,7 @@ bool PassageTest::holds(const Claim& claim, const Box& sides) const {
   if (!enclose_multipliers(box)) return false;
   const bool barrier = claim.passage == Passage::barrier;
   if (barrier && !form_->has_slacks) return false;
-  if (!form_->normal.empty()) {
+  if (!form_->normal.empty()) {  // else ‖n‖ = ‖λ‖ ≠ 0, and the barrier names no side
     const Interval along = along_normal(claim.side, box);
     // Hypothesis (1), and of a barrier that −sign·n is on the side named.
     if (along.contains_zero() || (barrier && (claim.sign > 0) != (along.hi() < 0))) return false;

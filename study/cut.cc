@@ -14,6 +14,7 @@
 #include "corank/solve/search/box_labels.h"
 #include "corank/solve/search/passes.h"
 #include "corank/solve/search/recut.h"
+#include "corank/study/images.h"
 #include "corank/study/search_steps.h"
 #include "corank/symbolic/model/set_definition.h"
 #include "corank/symbolic/sets/set_parts.h"
@@ -120,8 +121,7 @@ void cut_all(const solve::Options& options, solve::Control& control, result::Res
 }  // namespace
 
 bool is_whole(const result::Result& result) {
-  const auto leaves_out = [](const result::Result& part) { return !left_out(part).empty(); };
-  if (std::ranges::any_of(result.parts, leaves_out) && lacks_outputs(result::model_of(result), result)) return true;
+  if (lacks_sides(result) && lacks_outputs(result::model_of(result), result)) return true;
   const auto is_sheet = [](const CoverBox& box) {
     return box.verdict == Verdict::regular || box.verdict == Verdict::boundary;
   };

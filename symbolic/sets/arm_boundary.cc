@@ -147,12 +147,8 @@ std::optional<Component> product_at_limits(const FreeCoordinates& free, const Bo
     }
   if (kept.size() < part.active.size() || std::ssize(others) <= kSurface) return std::nullopt;
   kept.push_back(Expression::symbol(others.front()));  // stands in for them
-  auto factor = mentioned_coordinates(free, kept);
-  if (!factor) return std::nullopt;
   Component product;
-  product.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
-  product.joints = names_of(free.system.coordinates);
-  return product;
+  return put_in_factor(free, std::move(kept), product) ? std::optional(std::move(product)) : std::nullopt;
 }
 
 std::optional<ArmBoundary> ArmBoundary::of(const Mechanism& moving, const std::optional<FreeCoordinates>& free,
@@ -215,23 +211,28 @@ std::optional<ArmBoundary::Question> ArmBoundary::question(const BoundaryPart& p
   return result;
 }
 
-bool put_in_factor(const FreeCoordinates& free, const OutputMotion& motion, Component& part) {
-  std::vector<Expression> functions;
-  for (const auto& row : motion.entries.rows)
-    for (std::size_t j = 0; j + motion.entries.rows.size() < row.size(); ++j) {
-      const bool is_slack = motion.free <= j && j < motion.free + motion.active;
-      // Degenerate solutions of a kernel vector would be as many more.
-      if (!is_slack || !part.block) functions.push_back(row[j]);
-    }
+bool put_in_factor(const FreeCoordinates& free, std::vector<Expression> functions, Component& part) {
   if (part.condition) functions.push_back(*part.condition);
   if (part.dependent_angle)
     for (const std::string& name : {part.dependent_angle->angle, part.dependent_angle->other})
       functions.push_back(Expression::symbol(name));
+  if (part.block)
+    for (const auto& row : part.block->rows) functions.insert(functions.end(), row.begin(), row.end());
   auto factor = mentioned_coordinates(free, functions);
   if (!factor) return false;
   part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
   part.joints = names_of(free.system.coordinates);
   return true;
+}
+
+std::vector<Expression> passage_functions(const OutputMotion& motion, const Component& part) {
+  std::vector<Expression> functions;
+  for (const auto& row : motion.entries.rows)
+    for (std::size_t j = 0; j + motion.entries.rows.size() < row.size(); ++j) {
+      const bool is_slack = motion.free <= j && j < motion.free + motion.active;
+      if (!is_slack || !part.block) functions.push_back(row[j]);
+    }
+  return functions;
 }
 
 std::optional<PassageForm> passage_form_in_joints(const BoundaryPart& part, const TrigonometricSystem& system,

@@ -52,9 +52,13 @@ class ArmBoundary {
   OutputMotion motion_;
 };
 
-/// Makes a part one about the joints that its condition, if it has one, and its motion are about. False where these are
-/// about others, too.
-bool put_in_factor(const FreeCoordinates& free, const OutputMotion& motion, Component& part);
+/// Makes a part one about the joints that its condition or block, if it has one, and these functions are about. False where
+/// they are about other coordinates, too.
+bool put_in_factor(const FreeCoordinates& free, std::vector<Expression> functions, Component& part);
+
+/// What a part's passages are about. Without the slacks where it has a kernel vector, whose degenerate solutions would be
+/// as many more.
+std::vector<Expression> passage_functions(const OutputMotion& motion, const Component& part);
 
 /// passage_form() of such a part, with Φ = u − f(q). Without a normal where the frame turns by joints that `system` does not
 /// have, without slacks where these are about such joints; nothing where other entries are.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 
 #include "corank/core/check.h"
 #include "corank/symbolic/algebra/remembered.h"
@@ -43,18 +42,8 @@ namespace {
 
 // False where some part has a kernel vector, or a condition that is not about joints.
 bool leave_out_coordinates(const FreeCoordinates& free, std::vector<Component>& parts) {
-  for (Component& part : parts) {
-    std::vector<Expression> functions;
-    if (part.condition) functions.push_back(*part.condition);
-    if (part.dependent_angle)
-      for (const std::string& name : {part.dependent_angle->angle, part.dependent_angle->other})
-        functions.push_back(Expression::symbol(name));
-    auto factor = mentioned_coordinates(free, functions);
-    if (part.block || !factor) return false;
-    part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
-    for (const Coordinate& c : free.system.coordinates) part.joints.push_back(c.name);
-  }
-  return !parts.empty();
+  const auto is_put = [&](Component& part) { return !part.block && put_in_factor(free, {}, part); };
+  return !parts.empty() && std::ranges::all_of(parts, is_put);
 }
 
 // Of a set of dimension 2 or more. A part in which links turn freely is without their angles; one whose condition vanishes
@@ -96,15 +85,10 @@ std::vector<Component> lost_rank(const Mechanism& mechanism, const KernelQuestio
   const long joints = std::ranges::count_if(free.system.coordinates, std::not_fn(is_fixed)),
              conditions = std::ssize(matrix->columns) - std::ssize(matrix->rows) + 1;
   if (joints - conditions < 2) return {};
-  std::vector<Expression> entries;
-  for (const auto& row : matrix->rows) entries.insert(entries.end(), row.begin(), row.end());
-  std::optional<TrigonometricSystem> factor = mentioned_coordinates(free, entries);
-  if (!factor) return {};
   Component part;
-  part.name = "a kernel vector in " + listed(names_of(factor->coordinates));
   part.block = std::move(matrix);
-  part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
-  part.joints = names_of(free.system.coordinates);
+  if (!put_in_factor(free, {}, part)) return {};
+  part.name = "a kernel vector in " + listed(names_of(part.factor->coordinates));
   return {std::move(part)};
 }
 
@@ -119,9 +103,7 @@ std::vector<Component> space_of_joints(const std::optional<FreeCoordinates>& fre
   if (std::ssize(moving) < kLeastFree) return {};
   Component all;
   all.name = "every value of the joints";
-  auto factor = mentioned_coordinates(*free, {Expression::symbol(moving.front())});
-  all.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
-  all.joints = names_of(free->system.coordinates);
+  CORANK_CHECK(put_in_factor(*free, {Expression::symbol(moving.front())}, all));
   return {std::move(all)};
 }
 
@@ -168,7 +150,7 @@ std::vector<BoundaryPart> in_joints(const ArmBoundary& arm, BoundaryPart part, c
     if (all.empty()) all = {Component{.name = "a kernel vector", .block = m}};
   }
   for (Component& component : all)
-    if (!put_in_factor(*free, *asked->motion, component)) return {};
+    if (!put_in_factor(*free, passage_functions(*asked->motion, component), component)) return {};
   part.motion = asked->motion;
   return with_components(part, std::move(all));
 }
