@@ -1,7 +1,10 @@
 #include "corank/symbolic/sets/unit_vectors.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "corank/symbolic/algebra/remembered.h"
@@ -23,26 +26,179 @@ bool has_same_vectors(const Mechanism& a, const Mechanism& b) {
          std::ranges::equal(residuals(a), residuals(b), same_tree);
 }
 
-std::set<std::string> find_components(const Mechanism& mechanism) {
-  std::map<std::string, std::vector<std::string>> vectors;  // "u_link2": "u_link2_x" …
-  for (const Coordinate& c : mechanism.coordinates())
-    if (c.auxiliary && c.kind == CoordinateKind::length) vectors[c.name.substr(0, c.name.rfind('_'))].push_back(c.name);
-  if (vectors.empty()) return {};
-  // The squares' sums less 1, on a diagonal.
-  ExpressionMatrix sums;
-  for (const auto& [vector, components] : vectors) {
-    Expression& sum = sums.rows.emplace_back(vectors.size(), Expression(0))[sums.columns.size()];
-    sum = Expression(-1);
-    for (const std::string& name : components) sum = sum + pow(Expression::symbol(name), 2);
-    sums.columns.push_back(vector);
+// Dot and triple products of vectors, as polynomials that they are at every solution of Φ. A vector that Φ gives as Σ p·a +
+// Σ p·(a × b), where the p hold no vectors, has the sums of the products of these, by
+//   (a × b)·c = det(a, b, c),  (a × b)·(c × d) = (a·c)(b·d) − (a·d)(b·c);
+// other vectors have the products of their components.
+class VectorProducts {
+ public:
+  explicit VectorProducts(const Mechanism& mechanism);
+
+  /// Of the vectors whose length is shown to be 1.
+  std::set<std::string> unit_components() {
+    std::set<std::string> result;
+    for (std::size_t v = 0; v < vectors_.size(); ++v)
+      if (has_length_one(v)) result.insert(vectors_[v].names.begin(), vectors_[v].names.end());
+    return result;
   }
-  const ExactMatrix matrix(mechanism, sums, residuals(mechanism));
-  std::set<std::string> result;
-  for (std::size_t k = 0; k < sums.columns.size(); ++k)
-    if (matrix.in_free_coordinates(matrix.determinant({{k}, {k}})).is_zero())
-      result.insert(vectors[sums.columns[k]].begin(), vectors[sums.columns[k]].end());
-  return result;
+
+ private:
+  struct Vector {
+    std::vector<std::string> names;                      // of the components
+    std::vector<RationalPolynomial> components, values;  // as unknowns; what Φ says of them
+    std::vector<std::pair<RationalPolynomial, std::size_t>> sum;
+    std::vector<std::pair<RationalPolynomial, std::pair<std::size_t, std::size_t>>> cross_products;
+    bool is_sum() const { return !sum.empty() || !cross_products.empty(); }
+  };
+
+  RationalPolynomial entry(std::size_t column) const { return exact_->determinant({{0}, {column}}); }
+  RationalPolynomial zero() const { return entry(0); }
+  RationalPolynomial one() const { return entry(1); }
+  RationalPolynomial reduced(const RationalPolynomial& f) const {
+    constexpr std::size_t kLongest = 5000;
+    if (f.size() > kLongest) throw DeterminantTooLarge({}, "a product of vectors with many terms", "shorter vectors");
+    return exact_->modulo_circles(f);
+  }
+
+  // f is linear in it; what stands beside.
+  RationalPolynomial coefficient(const RationalPolynomial& f, const RationalPolynomial& component) const;
+  RationalPolynomial without_vectors(RationalPolynomial f) const;
+  void put_as_sum(std::size_t v);
+
+  bool has_length_one(std::size_t v) {
+    try {
+      return dot(v, v) == one();
+    } catch (const DeterminantTooLarge&) {
+      return false;
+    }
+  }
+
+  RationalPolynomial dot(std::size_t v, std::size_t w);
+  RationalPolynomial triple(std::array<std::size_t, 3> v);
+
+  std::unique_ptr<const ExactMatrix> exact_;
+  std::vector<Vector> vectors_;  // in the order in which Φ gives them
+  std::map<std::pair<std::size_t, std::size_t>, RationalPolynomial> dots_;
+  std::map<std::array<std::size_t, 3>, RationalPolynomial> triples_;
+};
+
+VectorProducts::VectorProducts(const Mechanism& mechanism) {
+  const std::vector<Expression> phi = residuals(mechanism);
+  std::map<std::string, Expression> values;
+  std::map<std::string, std::size_t> places;
+  for (const Relation& r : ExactMatrix(mechanism, {}, phi).given()) {
+    places.emplace(r.lhs.name(), places.size());
+    values.emplace(r.lhs.name(), r.rhs);
+  }
+  std::map<std::string, std::vector<std::string>> components;  // "u_link2": "u_link2_x" …
+  for (const Coordinate& c : mechanism.coordinates())
+    if (c.auxiliary && c.kind == CoordinateKind::length && values.contains(c.name))
+      components[c.name.substr(0, c.name.rfind('_'))].push_back(c.name);
+  for (auto& [stem, names] : components) vectors_.push_back({std::move(names), {}, {}, {}, {}});
+  std::ranges::stable_sort(vectors_, {}, [&](const Vector& v) { return places.at(v.names.back()); });
+  ExpressionMatrix entries;
+  entries.rows.push_back({Expression(0), Expression(1)});
+  for (const Vector& v : vectors_)
+    for (const std::string& name : v.names) {
+      entries.rows.front().push_back(Expression::symbol(name));
+      entries.rows.front().push_back(values.at(name));
+    }
+  for (std::size_t k = 0; k < entries.rows.front().size(); ++k) entries.columns.push_back(std::to_string(k));
+  exact_ = std::make_unique<ExactMatrix>(mechanism, entries, phi, ExactMatrix::Shape::wide);
+  std::size_t column = 2;
+  for (Vector& v : vectors_)
+    for (std::size_t i = 0; i < v.names.size(); ++i) {
+      v.components.push_back(entry(column++));
+      v.values.push_back(entry(column++));
+    }
+  for (std::size_t v = 0; v < vectors_.size(); ++v) put_as_sum(v);
 }
+
+std::size_t index_of(const RationalPolynomial& unknown) {
+  const std::vector<std::uint64_t> powers = unknown.terms().front().powers;
+  return static_cast<std::size_t>(std::ranges::find(powers, 1U) - powers.begin());
+}
+
+RationalPolynomial VectorProducts::coefficient(const RationalPolynomial& f, const RationalPolynomial& component) const {
+  return *(f - f.with(index_of(component), 1, zero())).divided_by(component);
+}
+
+RationalPolynomial VectorProducts::without_vectors(RationalPolynomial f) const {
+  for (const Vector& v : vectors_)
+    for (const RationalPolynomial& component : v.components) f = f.with(index_of(component), 1, zero());
+  return f;
+}
+
+// Where the coefficients of its first component are those of the others, too.
+void VectorProducts::put_as_sum(std::size_t v) {
+  constexpr std::size_t kDimension = 3;
+  Vector& own = vectors_[v];
+  if (own.names.size() != kDimension) return;
+  Vector read = own;
+  for (std::size_t a = 0; a < v; ++a) {
+    const std::vector<RationalPolynomial>& x = vectors_[a].components;
+    if (x.size() != kDimension) continue;
+    if (const auto p = without_vectors(coefficient(own.values[0], x[0])); !p.is_zero()) read.sum.emplace_back(p, a);
+    const RationalPolynomial by_second = coefficient(own.values[0], x[1]);
+    for (std::size_t b = a + 1; b < v && !by_second.is_zero(); ++b) {
+      if (vectors_[b].components.size() != kDimension) continue;
+      const auto p = without_vectors(coefficient(by_second, vectors_[b].components[2]));
+      if (!p.is_zero()) read.cross_products.emplace_back(p, std::pair(a, b));
+    }
+  }
+  for (std::size_t i = 0; i < kDimension; ++i) {
+    RationalPolynomial rest = own.values[i];
+    for (const auto& [p, a] : read.sum) rest = rest - p * vectors_[a].components[i];
+    for (const auto& [p, pair] : read.cross_products) {
+      const auto &a = vectors_[pair.first].components, &b = vectors_[pair.second].components;
+      const std::size_t j = (i + 1) % kDimension, k = (i + 2) % kDimension;
+      rest = rest - p * (a[j] * b[k] - a[k] * b[j]);
+    }
+    if (!rest.is_zero()) return;
+  }
+  own = std::move(read);
+}
+
+RationalPolynomial VectorProducts::dot(std::size_t v, std::size_t w) {
+  if (v < w) std::swap(v, w);
+  if (const auto known = dots_.find({v, w}); known != dots_.end()) return known->second;
+  RationalPolynomial result = zero();
+  if (!vectors_[v].is_sum() && !vectors_[w].is_sum()) {
+    for (std::size_t i = 0; i < vectors_[v].names.size(); ++i)
+      result = result + vectors_[v].components[i] * vectors_[w].components[i];
+    result = exact_->in_free_coordinates(result);
+  } else {
+    const auto& [sum, other] = vectors_[v].is_sum() ? std::pair(v, w) : std::pair(w, v);
+    for (const auto& [p, a] : vectors_[sum].sum) result = result + p * dot(a, other);
+    for (const auto& [p, pair] : vectors_[sum].cross_products)
+      result = result + p * triple({pair.first, pair.second, other});
+  }
+  return dots_.emplace(std::pair(v, w), reduced(result)).first->second;
+}
+
+RationalPolynomial VectorProducts::triple(std::array<std::size_t, 3> v) {
+  if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) return zero();
+  std::ranges::rotate(
+      v, std::ranges::max_element(v, {}, [&](std::size_t k) { return std::pair(vectors_[k].is_sum(), k); }) + 1);
+  if (v[0] > v[1]) return zero() - triple({v[1], v[0], v[2]});
+  if (const auto known = triples_.find(v); known != triples_.end()) return known->second;
+  const auto& [a, b, last] = v;
+  RationalPolynomial result = zero();
+  if (!vectors_[last].is_sum()) {
+    const auto &x = vectors_[a].components, &y = vectors_[b].components, &z = vectors_[last].components;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const std::size_t j = (i + 1) % x.size(), k = (i + 2) % x.size();
+      result = result + x[i] * (y[j] * z[k] - y[k] * z[j]);
+    }
+    result = exact_->in_free_coordinates(result);
+  }
+  for (const auto& [p, c] : vectors_[last].sum) result = result + p * triple({a, b, c});
+  for (const auto& [p, pair] : vectors_[last].cross_products)
+    result = result + p * (dot(a, pair.first) * dot(b, pair.second) - dot(a, pair.second) * dot(b, pair.first));
+  return triples_.emplace(v, reduced(result)).first->second;
+}
+
+std::set<std::string> find_components(const Mechanism& mechanism) { return VectorProducts(mechanism).unit_components(); }
 
 }  // namespace
 
