@@ -146,7 +146,7 @@ std::optional<Component> product_at_limits(const FreeCoordinates& free, const Bo
       others.push_back(c.name);
     }
   if (kept.size() < part.active.size() || std::ssize(others) <= kSurface) return std::nullopt;
-  kept.push_back(Expression::symbol(others.front()));  // stands in for them
+  for (std::size_t k = 0; k < 2; ++k) kept.push_back(Expression::symbol(others[k]));  // a surface stands in for them
   Component product;
   return put_in_factor(free, std::move(kept), product) ? std::optional(std::move(product)) : std::nullopt;
 }
@@ -213,12 +213,17 @@ std::optional<ArmBoundary::Question> ArmBoundary::question(const BoundaryPart& p
 
 bool put_in_factor(const FreeCoordinates& free, std::vector<Expression> functions, Component& part) {
   if (part.condition) functions.push_back(*part.condition);
+  functions.insert(functions.end(), part.conditions.begin(), part.conditions.end());
   if (part.dependent_angle)
     for (const std::string& name : {part.dependent_angle->angle, part.dependent_angle->other})
       functions.push_back(Expression::symbol(name));
   if (part.block)
     for (const auto& row : part.block->rows) functions.insert(functions.end(), row.begin(), row.end());
-  auto factor = mentioned_coordinates(free, functions);
+  FreeCoordinates held = free;
+  for (const auto& [joint, value] : part.values)
+    for (Coordinate& c : held.system.coordinates)
+      if (c.name == joint) c.lower = c.upper = value;
+  auto factor = mentioned_coordinates(held, functions);
   if (!factor) return false;
   part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
   part.joints = names_of(free.system.coordinates);

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "corank/core/ended.h"
@@ -22,11 +23,13 @@
 
 namespace corank::symbolic {
 
-/// { q : Φ(q) = 0 and one of dependent_angle, condition = 0, block singular }.
+/// { q : Φ(q) = 0, the values, and one of dependent_angle, condition = 0, block singular }.
 struct Component {
   std::string name;  ///< "phi_rod1 = theta1", "x_C = 0", "condition on theta1, theta2, theta3 (2)"
   std::optional<DependentAngle> dependent_angle{};  ///< of sin(a ∓ b) = 0 or cos(a ∓ b) = 0, each a part for either way
   std::optional<Expression> condition{};
+  std::vector<std::pair<std::string, Expression>> values{};  ///< of joints (rank_loss.h): q2 = 0, q6 = pi/2
+  std::vector<Expression> conditions{};                      ///< likewise: all of them are 0
   /// With a kernel vector: its determinant is long; or it is no product, of more than three rows, and the set is points.
   std::optional<ExpressionMatrix> block{};
   /// In place of Φ(q) = 0, where some coordinates are left out (set_parts.h).
@@ -40,7 +43,13 @@ struct Component {
   /// "phi_rod1 = theta1", "x_C = 0"; of a block nothing.
   std::string relation() const {
     if (stratum && !is_rest) return stratum->text();
-    return dependent_angle ? dependent_angle->text() : condition ? condition->text() + " = 0" : "";
+    if (dependent_angle) return dependent_angle->text();
+    if (condition) return condition->text() + " = 0";
+    std::string text;
+    const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
+    for (const auto& [joint, value] : values) add(joint + " = " + value.text());
+    for (const Expression& e : conditions) add(e.text() + " = 0");
+    return text;
   }
   friend bool operator==(const Component& a, const Component& b) {
     return a.name == b.name || (!a.block && a.relation() == b.relation());

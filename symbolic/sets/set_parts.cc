@@ -10,6 +10,7 @@
 #include "corank/symbolic/sets/free_fold.h"
 #include "corank/symbolic/sets/kernel_scale.h"
 #include "corank/symbolic/sets/part_names.h"
+#include "corank/symbolic/sets/rank_loss.h"
 #include "corank/symbolic/sets/velocity_blocks.h"
 
 namespace corank::symbolic {
@@ -85,6 +86,7 @@ std::vector<Component> lost_rank(const Mechanism& mechanism, const KernelQuestio
   const long joints = std::ranges::count_if(free.system.coordinates, std::not_fn(is_fixed)),
              conditions = std::ssize(matrix->columns) - std::ssize(matrix->rows) + 1;
   if (joints - conditions < 2) return {};
+  if (std::vector<Component> parts = rank_losses(mechanism, *matrix, free, ended); !parts.empty()) return parts;
   Component part;
   part.block = std::move(matrix);
   if (!put_in_factor(free, {}, part)) return {};
@@ -328,6 +330,7 @@ void SetEquations::add_condition(const Component& part, TrigonometricSystem& sys
   if (system.dependent_angle) system.equations.push_back({part.dependent_angle->relation(), part.name, where, true, true});
   if (part.condition && !part.condition_in_factor)
     system.equations.push_back({*part.condition == Expression(0), part.name, where, true});
+  for (const Expression& e : part.conditions) system.equations.push_back({e == Expression(0), part.name, where, true});
 }
 
 System SetEquations::compiled(const std::vector<std::string>& scales) const {

@@ -70,6 +70,15 @@ class ExactMatrix::Unknowns {
   }
   const PolynomialRing& ring() const { return *ring_; }
 
+  UnknownsOfAngle of_angle(const std::string& angle) const {
+    const auto place = [&](const GiNaC::ex& e) {
+      const auto at = index_.find(e);
+      return at == index_.end() ? std::nullopt : std::optional(at->second);
+    };
+    const GiNaC::ex symbol = bridge.symbol(angle);
+    return {place(GiNaC::cos(symbol)), place(GiNaC::sin(symbol))};
+  }
+
   struct Circle {
     std::size_t cosine, sine;
   };
@@ -368,6 +377,10 @@ std::vector<Relation> ExactMatrix::given() const {
     result.push_back(expression(RationalPolynomial::unknown(unknowns_->ring(), unknown)) == expression(value));
   return result;
 }
+
+const PolynomialRing& ExactMatrix::ring() const { return unknowns_->ring(); }
+
+ExactMatrix::UnknownsOfAngle ExactMatrix::unknowns_of(const std::string& angle) const { return unknowns_->of_angle(angle); }
 
 Expression ExactMatrix::entry(std::size_t row, std::size_t column) const { return expression(rows_[row][column]); }
 

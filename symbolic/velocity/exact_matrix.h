@@ -67,6 +67,12 @@ class ExactMatrix {
   /// Those coordinates and what they are, x = f, in the equations' order.
   std::vector<Relation> given() const;
 
+  const PolynomialRing& ring() const;
+  struct UnknownsOfAngle {
+    std::optional<std::size_t> cosine, sine;  ///< where they occur
+  };
+  UnknownsOfAngle unknowns_of(const std::string& angle) const;
+
   Expression entry(std::size_t row, std::size_t column) const;
   Expression expression(const RationalPolynomial& f) const;
   /// The one of ±f with the shorter text; nothing where f holds no coordinate.

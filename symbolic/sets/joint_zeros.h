@@ -1,0 +1,73 @@
+// Where polynomials in the sines and cosines of an arm's joints vanish: by factors, those in one joint by its angles.
+//
+// With S = sin(θ/2) and C = cos(θ/2), cos θ = C² − S², sin θ = 2 S C and 1 = C² + S² make of a polynomial one that has the same
+// degree in S and C in each of its terms, for each joint. Its factors are those of its zeros; as polynomials in cos θ and sin θ
+// 1 − cos θ and sin θ have a zero in common, but no factor.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "corank/symbolic/sets/free_coordinates.h"
+#include "corank/symbolic/velocity/exact_matrix.h"
+
+namespace corank::symbolic {
+
+/// A joint at a multiple of π/2: so many quarters of a turn, from 0 to 3.
+struct QuarterTurns {
+  std::string joint;
+  int quarters = 0;
+  friend auto operator<=>(const QuarterTurns&, const QuarterTurns&) = default;
+};
+
+class JointZeros {
+ public:
+  /// Of polynomials in the unknowns of `matrix`, which is in joints.
+  JointZeros(const Mechanism& mechanism, const FreeCoordinates& free, const ExactMatrix& matrix, const Ended& ended);
+
+  /// Where a polynomial vanishes: at one of these values, which are in the joints' ranges, or where one of these factors
+  /// does. Neither: nowhere.
+  struct Zeros {
+    std::vector<QuarterTurns> values;
+    std::vector<RationalPolynomial> factors;
+    bool empty() const { return values.empty() && factors.empty(); }
+  };
+  /// Nothing where the factors are not found.
+  std::optional<Zeros> of(const RationalPolynomial& f) const;
+  RationalPolynomial at(RationalPolynomial f, const QuarterTurns& value) const;
+  /// The angle in the joint's range, exactly; modulo 2π.
+  std::optional<Expression> value_of(const QuarterTurns& value) const;
+  /// How many joints turn that these are about.
+  std::size_t joints_in(const std::vector<RationalPolynomial>& polynomials) const;
+
+ private:
+  /// A joint and its unknowns, S and C those of half_.
+  struct Turning {
+    std::string name;
+    std::optional<std::size_t> cosine, sine;  // where they occur
+    std::size_t half_sine, half_cosine;
+    std::uint64_t cosines(const RationalPolynomial::Term& t) const { return cosine ? t.powers[*cosine] : 0; }
+    std::uint64_t sines(const RationalPolynomial::Term& t) const { return sine ? t.powers[*sine] : 0; }
+  };
+  /// In half_, behind two of each joint.
+  std::size_t other(std::size_t unknown) const { return 2 * turning_.size() + unknown; }
+  const Coordinate& coordinate(const std::string& joint) const;
+  RationalPolynomial by_half_angles(const RationalPolynomial& f) const;
+  /// Back again; nothing where f's degree in a joint is odd.
+  std::optional<RationalPolynomial> by_whole_angles(const RationalPolynomial& f) const;
+  std::optional<Zeros> by_factors(const RationalPolynomial& f) const;
+  bool add_zeros_of_joint(const RationalPolynomial& f, const Turning& joint, Zeros& zeros) const;
+  bool vanishes_nowhere(const RationalPolynomial& f, const Turning& joint) const;
+
+  const Mechanism& mechanism_;
+  const std::vector<Coordinate>& coordinates_;
+  const ExactMatrix& matrix_;
+  const Ended& ended_;
+  std::vector<Turning> turning_;
+  std::vector<bool> is_of_joint_;  // of the matrix's unknowns
+  PolynomialRing half_{0};
+};
+
+}  // namespace corank::symbolic

@@ -1,0 +1,246 @@
+// Singularities of arms with more joints than outputs, by values of joints and conditions in place of a kernel vector, against
+// kinematics in double precision.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "corank/study/answer.h"
+#include "corank/study/model.h"
+#include "corank/symbolic/model/evaluate.h"
+#include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/set_parts.h"
+#include "corank/tests/seeds.h"
+
+namespace corank {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+constexpr double kPi = std::numbers::pi;
+
+/// By standard Denavit and Hartenberg: Rz(theta) Tz(d) Tx(a) Rx(alpha), alpha in right angles.
+struct Arm {
+  struct Row {
+    int alpha;
+    double a, d;
+  };
+  std::vector<Row> rows;
+  bool whole_pose = true;
+
+  std::string text() const {
+    std::string text = "[DH]\nstandard\na alpha d theta\n";
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      text += fmt::format("{} {}deg {} q{} limits [-175deg, 175deg]\n", rows[i].a, 90 * rows[i].alpha, rows[i].d, i + 1);
+    return text + "[OUTPUTS]\ntip : " + (whole_pose ? "pose" : "position") + " of tool\n";
+  }
+
+  /// Of the tip's velocity, and of the tool's angular velocity.
+  MatrixXd jacobian(const VectorXd& q) const {
+    std::vector<Vector3d> axes, points;
+    Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      axes.emplace_back(t.linear().col(2));
+      points.emplace_back(t.translation());
+      t.rotate(Eigen::AngleAxisd(q[static_cast<Eigen::Index>(i)], Vector3d::UnitZ()));
+      t.translate(Vector3d(rows[i].a, 0, rows[i].d));
+      t.rotate(Eigen::AngleAxisd(rows[i].alpha * kPi / 2, Vector3d::UnitX()));
+    }
+    MatrixXd j(whole_pose ? 6 : 3, rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      j.col(column).head(3) = axes[i].cross(t.translation() - points[i]);
+      if (whole_pose) j.col(column).tail(3) = axes[i];
+    }
+    return j;
+  }
+  double smallest_value(const VectorXd& q) const {
+    return Eigen::JacobiSVD<MatrixXd>(jacobian(q)).singularValues().tail(1)[0];
+  }
+};
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double uniform(double low, double high) { return std::uniform_real_distribution<>(low, high)(engine_); }
+  VectorXd configuration(std::size_t joints) {
+    VectorXd q(static_cast<Eigen::Index>(joints));
+    for (double& x : q) x = uniform(-3, 3);
+    return q;
+  }
+  /// Joints at right angles to each other, some of whose axes meet.
+  Arm arm(bool whole_pose) {
+    Arm arm{{}, whole_pose};
+    const std::size_t joints = whole_pose ? 7 : 5 + engine_() % 2;
+    for (std::size_t i = 0; i < joints; ++i) {
+      const auto length = [&](double often) { return uniform(0, 1) < often ? std::round(uniform(1, 9)) / 10 : 0; };
+      arm.rows.push_back({i + 1 == joints ? 0 : engine_() % 2 == 0 ? 1 : -1, length(0.1), length(i % 2 == 0 ? 0.9 : 0.1)});
+    }
+    return arm;
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// A zero of the smallest singular value, by Newton's method along its gradient: it falls linearly to 0.
+std::optional<VectorXd> singular_near(const Arm& arm, VectorXd q) {
+  constexpr double kStep = 1e-6, kZero = 1e-9;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const double value = arm.smallest_value(q);
+    if (value < kZero) return q;
+    VectorXd gradient(q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      VectorXd more = q;
+      more[i] += kStep;
+      gradient[i] = (arm.smallest_value(more) - value) / kStep;
+    }
+    if (gradient.squaredNorm() < 1e-12) return std::nullopt;
+    q -= gradient * (value / gradient.squaredNorm());
+    if (q.cwiseAbs().maxCoeff() > 3.05) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// A part by what it names: joints with their values, and functions that are 0.
+struct Part {
+  std::string name;
+  std::map<std::size_t, double> values;
+  std::vector<symbolic::Expression> conditions;
+  std::map<std::string, double> constants;
+
+  VectorXd residuals(const VectorXd& q) const {
+    std::vector<double> all;
+    for (const auto& [joint, value] : values)
+      all.push_back(std::remainder(q[static_cast<Eigen::Index>(joint)] - value, 2 * kPi));
+    std::map<std::string, double> names = constants;
+    for (Eigen::Index i = 0; i < q.size(); ++i) names[fmt::format("q{}", i + 1)] = q[i];
+    for (const symbolic::Expression& e : conditions) all.push_back(symbolic::evaluate(e, names));
+    return Eigen::Map<VectorXd>(all.data(), std::ssize(all));
+  }
+  MatrixXd gradients(const VectorXd& q) const {
+    constexpr double kStep = 1e-6;
+    MatrixXd result(residuals(q).size(), q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      VectorXd more = q, less = q;
+      more[i] += kStep, less[i] -= kStep;
+      result.col(i) = (residuals(more) - residuals(less)) / (2 * kStep);
+    }
+    return result;
+  }
+  /// Steps of Newton and Gauss to it.
+  std::optional<VectorXd> point_near(VectorXd q) const {
+    for (int iteration = 0; iteration < 50; ++iteration) {
+      const VectorXd r = residuals(q);
+      if (r.cwiseAbs().maxCoeff() < 1e-12) return q;
+      q -= gradients(q).completeOrthogonalDecomposition().solve(r);
+    }
+    return std::nullopt;
+  }
+  /// To first order.
+  double distance(const VectorXd& q) const {
+    return gradients(q).completeOrthogonalDecomposition().solve(residuals(q)).norm();
+  }
+};
+
+symbolic::Mechanism mechanism_of(const Arm& arm) {
+  return study::parse_model({.text = arm.text(), .file = "arm.cuik"}).mechanism;
+}
+
+/// None where the set has a part with a kernel vector.
+std::vector<Part> parts_of(const symbolic::Mechanism& mechanism) {
+  std::vector<Part> parts;
+  for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, symbolic::SingularitySet::inverse)) {
+    const auto& component = std::get<symbolic::Component>(part);
+    if (component.block || component.condition || component.dependent_angle) return {};
+    Part& own = parts.emplace_back(Part{component.name, {}, component.conditions, symbolic::constant_values(mechanism)});
+    for (const auto& [joint, value] : component.values)
+      own.values.emplace(std::stoul(joint.substr(1)) - 1, symbolic::evaluate(value, {{"pi", kPi}}));
+  }
+  return parts;
+}
+
+TEST(RankLoss, IsThatOfTheJacobianInDoubles) {
+  std::size_t arms = 0, names = 0, on_parts = 0, found = 0;
+  for (unsigned seed = 1; seed <= test::seeds(12); ++seed) {
+    Random random(seed);
+    const Arm arm = random.arm(seed % 3 != 0);
+    SCOPED_TRACE(arm.text());
+    const std::vector<Part> parts = parts_of(mechanism_of(arm));
+    if (parts.empty()) continue;
+    ++arms, names += parts.size();
+    for (const Part& part : parts)
+      for (int trial = 0; trial < 5; ++trial) {
+        const std::optional<VectorXd> q = part.point_near(random.configuration(arm.rows.size()));
+        if (!q) continue;
+        ++on_parts;
+        EXPECT_LT(arm.smallest_value(*q), 1e-6) << part.name << " at " << q->transpose();
+      }
+    for (int trial = 0; trial < 40; ++trial) {
+      const std::optional<VectorXd> q = singular_near(arm, random.configuration(arm.rows.size()));
+      if (!q) continue;
+      ++found;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Part& part : parts) nearest = std::min(nearest, part.distance(*q));
+      EXPECT_LT(nearest, 1e-3) << "lost: " << q->transpose();
+    }
+  }
+  std::cout << fmt::format("{} arms with {} parts, {} configurations on these, {} singular ones found\n", arms, names,
+                           on_parts, found);
+  EXPECT_GT(arms, 6U);
+  EXPECT_GT(on_parts, 50U);
+  EXPECT_GT(found, 50U);
+}
+
+constexpr const char* kSevenJoints = R"([DH]
+standard
+a alpha d theta
+0 -90deg 0.34 q1 limits [-170deg, 170deg]
+0 90deg 0 q2 limits [-120deg, 120deg]
+0 90deg 0.4 q3 limits [-170deg, 170deg]
+0 -90deg 0 q4 limits [-120deg, 120deg]
+0 -90deg 0.4 q5 limits [-170deg, 170deg]
+0 90deg 0 q6 limits [-120deg, 120deg]
+0 0 0.126 q7
+[OUTPUTS]
+tip : )";
+
+std::vector<std::string> names_of_parts(const result::Result& result) {
+  std::vector<std::string> names;
+  for (const result::Result& part : result.parts) names.push_back(part.part);
+  return names;
+}
+
+// Of the pose: the arm stretched; the first and the third axis in a line, and the shoulder or the wrist beside it; likewise
+// the fifth and the seventh.
+TEST(RankLoss, OfAShoulderAnElbowAndAWristIsKnown) {
+  const auto solved = [](const std::string& output) {
+    study::Options options;
+    options.search.surfaces_whole = true;
+    const auto model = study::parse_model({.text = kSevenJoints + output + " of tool\n", .file = "arm.cuik"});
+    return study::answer({.model = model.mechanism, .set = symbolic::SingularitySet::inverse}, options);
+  };
+  const result::Result pose = solved("pose");
+  EXPECT_TRUE(pose.cover.complete());
+  EXPECT_EQ(pose.cover.count(Verdict::undecided), 0U);
+  EXPECT_EQ(names_of_parts(pose), (std::vector<std::string>{"q2 = 0, q3 = -pi/2", "q2 = 0, q3 = pi/2", "q2 = 0, q6 = 0",
+                                                            "q4 = 0", "q5 = -pi/2, q6 = 0", "q5 = pi/2, q6 = 0"}));
+  const result::Result position = solved("position");
+  EXPECT_TRUE(position.cover.complete());
+  EXPECT_EQ(position.cover.count(Verdict::undecided), 0U);
+  EXPECT_EQ(names_of_parts(position),
+            (std::vector<std::string>{"q2 = 0, q3 = -pi/2, q6 = 0", "q2 = 0, q3 = 0, q4 = 0, q5 = -pi/2",
+                                      "q2 = 0, q3 = 0, q4 = 0, q5 = pi/2", "q2 = 0, q3 = pi/2, q6 = 0", "q4 = 0, q6 = 0"}));
+}
+
+}  // namespace
+}  // namespace corank
