@@ -146,7 +146,7 @@ std::optional<Component> product_at_limits(const FreeCoordinates& free, const Bo
       others.push_back(c.name);
     }
   if (kept.size() < part.active.size() || std::ssize(others) <= kSurface) return std::nullopt;
-  for (std::size_t k = 0; k < 2; ++k) kept.push_back(Expression::symbol(others[k]));  // a surface stands in for them
+  kept.push_back(Expression::symbol(others.front()));  // stands in for them
   Component product;
   return put_in_factor(free, std::move(kept), product) ? std::optional(std::move(product)) : std::nullopt;
 }

@@ -54,8 +54,8 @@ class RankLoss {
     }
   }
 
-  /// None where a kernel vector says it better: in more of them conditions are too many for their joints than there are parts
-  /// of the dimension that is expected.
+  /// None where a kernel vector says it better: in more of them conditions are too many for their joints than there are
+  /// parts of the dimension that is expected.
   std::vector<Component> components() const {
     std::vector<Component> result;
     const std::size_t expected = matrix_->columns().size() - matrix_->size() + 1;
@@ -72,8 +72,9 @@ class RankLoss {
       result.push_back(std::move(*component));
     }
     if (balance <= 0) return {};
-    // FLINT's order is another in each process.
-    std::ranges::sort(result, {}, [](const Component& c) { return c.relation(); });
+    // The largest first. FLINT's order is another in each process.
+    std::ranges::sort(result, {},
+                      [](const Component& c) { return std::pair(c.values.size() + c.conditions.size(), c.relation()); });
     std::map<std::string, int> alike;
     for (Component& c : result)
       if (const int number = ++alike[c.name]; number > 1) c.name += " (" + std::to_string(number) + ")";
@@ -199,12 +200,11 @@ std::optional<Component> RankLoss::component_of(const Loss& loss) const {
     add_to_name(text.size() <= kLongestText ? text + " = 0" : "condition on " + names_where(free_.system, is_in));
   }
   std::vector<Expression> functions;
-  if (part.conditions.empty()) {  // a surface of joints stands in for those that move
-    constexpr std::size_t kSurface = 2;
-    for (const Coordinate& c : free_.system.coordinates)
-      if (!is_fixed(c) && !loss.held.contains(c.name) && functions.size() < kSurface)
-        functions.push_back(Expression::symbol(c.name));
-    if (functions.empty()) return std::nullopt;
+  if (part.conditions.empty()) {  // a joint stands in for those that move
+    const auto moves = [&](const Coordinate& c) { return !is_fixed(c) && !loss.held.contains(c.name); };
+    const auto first = std::ranges::find_if(free_.system.coordinates, moves);
+    if (first == free_.system.coordinates.end()) return std::nullopt;
+    functions.push_back(Expression::symbol(first->name));
   }
   return put_in_factor(free_, std::move(functions), part) ? std::optional(std::move(part)) : std::nullopt;
 }

@@ -198,7 +198,11 @@ RationalPolynomial VectorProducts::triple(std::array<std::size_t, 3> v) {
   return triples_.emplace(v, reduced(result)).first->second;
 }
 
-std::set<std::string> find_components(const Mechanism& mechanism) { return VectorProducts(mechanism).unit_components(); }
+std::set<std::string> find_components(const Mechanism& mechanism) {
+  const auto may_be_one = [](const Coordinate& c) { return c.auxiliary && c.kind == CoordinateKind::length; };
+  if (std::ranges::none_of(mechanism.coordinates(), may_be_one)) return {};
+  return VectorProducts(mechanism).unit_components();
+}
 
 }  // namespace
 

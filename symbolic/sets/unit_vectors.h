@@ -9,8 +9,9 @@
 
 namespace corank::symbolic {
 
-/// Of the auxiliary coordinates name_x, name_y, … those whose squares' sum is shown to be 1 at every solution of Φ: less 1
-/// it is the polynomial 0 once what Φ gives explicitly is put in (ExactMatrix::in_free_coordinates).
+/// Of the auxiliary coordinates name_x, name_y, … those whose squares' sum is shown to be 1 at every solution of Φ, as a
+/// polynomial: by what Φ gives explicitly (ExactMatrix::in_free_coordinates), and by products of the vectors that others are
+/// sums and cross products of.
 std::set<std::string> unit_vector_components(const Mechanism& mechanism);
 
 }  // namespace corank::symbolic

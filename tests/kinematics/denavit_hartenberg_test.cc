@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "corank/kinematics/language/part_file.h"
 #include "corank/symbolic/model/model_file.h"
+#include "corank/symbolic/sets/unit_vectors.h"
 #include "corank/symbolic/writing/printer.h"
 #include "corank/tests/kinematics/assembled.h"
 #include "corank/tests/kinematics/read_robot.h"
@@ -191,6 +193,29 @@ TEST(DenavitHartenberg, DegreesWithoutDegAreNoted) {
 TEST(DenavitHartenberg, ASectionAloneIsARobot) {
   EXPECT_TRUE(has_parts("% an arm\n[DH]\nstandard\n"));
   EXPECT_FALSE(has_parts("[SYSTEM VARS]\nDH : [0, 1]\n"));
+}
+
+TEST(DenavitHartenberg, DirectionsInLongArmsAreUnitVectors) {
+  std::mt19937 random(1);
+  for (int arm = 0; arm < 6; ++arm) {
+    std::string text = "[DH]\nstandard\na alpha d theta\n";
+    for (int joint = 1; joint <= 9; ++joint) {
+      const int twists[] = {90, -90, 90, -90, 30, -45, 180};
+      text += decimal(0.1 * static_cast<int>(random() % 4)) + " " + std::to_string(twists[random() % 7]) + "deg " +
+              decimal(0.1 * static_cast<int>(random() % 4)) + " q" + std::to_string(joint) + "\n";
+    }
+    SCOPED_TRACE(text);
+    const symbolic::Mechanism mechanism =
+        assemble(parse_parts(text + "[OUTPUTS]\ntip : pose of tool\n", "r.cuik")).mechanism;
+    const std::set<std::string> units = symbolic::unit_vector_components(mechanism);
+    std::size_t directions = 0;
+    for (const symbolic::Coordinate& c : mechanism.coordinates())
+      if (c.auxiliary && (c.name.starts_with("u_") || c.name.starts_with("n_"))) {
+        ++directions;
+        EXPECT_TRUE(units.contains(c.name)) << c.name;
+      }
+    EXPECT_GT(directions, 20U);
+  }
 }
 
 }  // namespace
