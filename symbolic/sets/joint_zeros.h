@@ -1,8 +1,8 @@
 // Where polynomials in the sines and cosines of an arm's joints vanish: by factors, those in one joint by its angles.
 //
-// With S = sin(θ/2) and C = cos(θ/2), cos θ = C² − S², sin θ = 2 S C and 1 = C² + S² make of a polynomial one that has the
-// same degree in S and C in each of its terms, for each joint. Its factors are those of its zeros; as polynomials in cos θ and
-// sin θ 1 − cos θ and sin θ have a zero in common, but no factor.
+// With S = sin(θ/2) and C = cos(θ/2), cos θ = C² − S², sin θ = 2 S C and 1 = C² + S² make of a polynomial one that has
+// the same degree in S and C in each of its terms, for each joint. Its factors are those of its zeros; as polynomials in
+// cos θ and sin θ 1 − cos θ and sin θ have a zero in common, but no factor.
 #pragma once
 
 #include <cstdint>
