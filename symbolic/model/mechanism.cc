@@ -25,6 +25,13 @@ bool is_no_end(const Constraint& inequality) {
 
 bool is_fixed(const Coordinate& coordinate) { return coordinate.has_range && same_tree(coordinate.lower, coordinate.upper); }
 
+bool hold(std::vector<Coordinate>& coordinates, const std::string& name, const Expression& value) {
+  const auto c = std::ranges::find(coordinates, name, &Coordinate::name);
+  if (c == coordinates.end()) return false;
+  c->lower = c->upper = value, c->has_range = true;
+  return true;
+}
+
 void Mechanism::require(const std::string& text, const SourceLocation& where) {
   parse_requirement(text, where);
   // It is to be one line of a model, with a semicolon behind it.

@@ -58,6 +58,8 @@ struct Coordinate {
 
 /// A coordinate with a range of one value.
 bool is_fixed(const Coordinate& coordinate);
+/// Gives the coordinate of that name one value. False where there is none.
+bool hold(std::vector<Coordinate>& coordinates, const std::string& name, const Expression& value);
 
 /// Coordinates declared together, with the equations that tie them:
 ///   unit      w_x, w_y, w_z with w_x² + w_y² + w_z² = 1;

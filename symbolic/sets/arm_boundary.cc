@@ -192,8 +192,7 @@ std::optional<ArmBoundary::Question> ArmBoundary::question(const BoundaryPart& p
   std::vector<std::size_t> free, active;
   for (const BoundaryPart::Active& a : part.active) {
     result.joints.set_range(a.name, a.value, a.value);
-    for (Coordinate& c : result.free.system.coordinates)
-      if (c.name == a.name) c.lower = c.upper = a.value;
+    hold(result.free.system.coordinates, a.name, a.value);
   }
   for (std::size_t j = 0; j < motion_.free; ++j)
     if (std::ranges::find(part.active, motion_.entries.columns[j], &BoundaryPart::Active::name) == part.active.end())
@@ -212,19 +211,16 @@ std::optional<ArmBoundary::Question> ArmBoundary::question(const BoundaryPart& p
 }
 
 bool put_in_factor(const FreeCoordinates& free, std::vector<Expression> functions, Component& part) {
-  if (part.condition) functions.push_back(*part.condition);
   functions.insert(functions.end(), part.conditions.begin(), part.conditions.end());
   if (part.dependent_angle)
     for (const std::string& name : {part.dependent_angle->angle, part.dependent_angle->other})
       functions.push_back(Expression::symbol(name));
   if (part.block)
     for (const auto& row : part.block->rows) functions.insert(functions.end(), row.begin(), row.end());
-  FreeCoordinates held = free;
-  for (const auto& [joint, value] : part.values)
-    for (Coordinate& c : held.system.coordinates)
-      if (c.name == joint) c.lower = c.upper = value;
-  auto factor = mentioned_coordinates(held, functions);
+  for (const auto& [joint, value] : part.values) functions.push_back(Expression::symbol(joint));
+  auto factor = mentioned_coordinates(free, functions);
   if (!factor) return false;
+  for (const auto& [joint, value] : part.values) hold(factor->coordinates, joint, value);
   part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
   part.joints = names_of(free.system.coordinates);
   return true;

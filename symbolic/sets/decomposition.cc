@@ -17,8 +17,6 @@ namespace {
 constexpr std::size_t kMostRows = 3;  // of a block whose determinant is a condition of points though it is no product
 constexpr std::size_t kMostConditionTerms = 200;  // of a condition: longer ones make wide enclosures
 constexpr std::size_t kMostTermsInJoints = 2000;  // but in four joints they are the best there is
-constexpr std::size_t kLongestName = 60;
-constexpr std::size_t kMostNames = 6;  // of coordinates in a part's name
 
 // The configurations, whatever the set.
 class Space {
@@ -39,13 +37,7 @@ class Space {
     return compiled.evaluate(compiled.value_row(0), system_.domain()).mig() > 0;
   }
 
-  std::vector<std::string> coordinates_in(const Expression& e) const {
-    std::vector<std::string> names;
-    for (const Coordinate& c : mechanism_.coordinates())
-      if (e.mentions(c.name)) names.push_back(c.name);
-    return names;
-  }
-
+  const Mechanism& mechanism() const { return mechanism_; }
   bool is_fixed(const std::string& angle) const { return symbolic::is_fixed(coordinate(angle)); }
   std::size_t index(const std::string& angle) const { return mechanism_.find_coordinate(angle); }
 
@@ -230,13 +222,8 @@ class Decomposer {
 
   // No other part's.
   std::string name_of(const Expression& condition) const {
-    if (std::string text = condition.text(); text.size() <= kLongestName) return text + " = 0";
-    std::vector<std::string> mentioned = space_.coordinates_in(condition);
-    if (mentioned.size() > kMostNames) {
-      mentioned.resize(kMostNames);
-      mentioned.emplace_back("...");
-    }
-    const std::string name = fmt::format("condition on {}", fmt::join(mentioned, ", "));
+    const std::string name = name_of_condition(space_.mechanism(), condition);
+    if (name.ends_with(" = 0")) return name;
     const auto is_alike = [&name](const Component& c) { return c.name == name || c.name.rfind(name + " (", 0) == 0; };
     const auto alike = std::ranges::count_if(components_, is_alike);
     return alike == 0 ? name : fmt::format("{} ({})", name, alike + 1);
@@ -247,7 +234,7 @@ class Decomposer {
       const std::vector<DependentAngle> angles = dependent_angles_of(space_, condition);
       for (const DependentAngle& angle : angles) add({angle.text(), angle});
       if (!angles.empty()) continue;
-      add({name_of(condition), {}, condition});
+      add({name_of(condition), {}, {condition}});
     }
   }
 
@@ -278,6 +265,20 @@ std::optional<Decomposer> decomposer(const Mechanism& mechanism, const KernelQue
 }
 
 }  // namespace
+
+std::string name_of_condition(const Mechanism& mechanism, const Expression& condition) {
+  constexpr std::size_t kLongestName = 60;
+  constexpr std::size_t kMostNames = 6;  // of coordinates
+  if (std::string text = condition.text(); text.size() <= kLongestName) return text + " = 0";
+  std::vector<std::string> names;
+  for (const Coordinate& c : mechanism.coordinates())
+    if (condition.mentions(c.name)) names.push_back(c.name);
+  if (names.size() > kMostNames) {
+    names.resize(kMostNames);
+    names.emplace_back("...");
+  }
+  return fmt::format("condition on {}", fmt::join(names, ", "));
+}
 
 std::vector<Component> decompose(const Mechanism& mechanism, const KernelQuestion& kernel, const Ended& ended) {
   std::optional<Decomposer> of = decomposer(mechanism, kernel, ended);

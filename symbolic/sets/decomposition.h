@@ -23,13 +23,12 @@
 
 namespace corank::symbolic {
 
-/// { q : Φ(q) = 0, the values, and one of dependent_angle, condition = 0, block singular }.
+/// { q : Φ(q) = 0, the values, and one of dependent_angle, all conditions = 0, block singular }.
 struct Component {
   std::string name;  ///< "phi_rod1 = theta1", "x_C = 0", "condition on theta1, theta2, theta3 (2)"
   std::optional<DependentAngle> dependent_angle{};  ///< of sin(a ∓ b) = 0 or cos(a ∓ b) = 0, each a part for either way
-  std::optional<Expression> condition{};
+  std::vector<Expression> conditions{};             ///< one, or of rank_loss.h some
   std::vector<std::pair<std::string, Expression>> values{};  ///< of joints (rank_loss.h): q2 = 0, q6 = pi/2
-  std::vector<Expression> conditions{};                      ///< likewise: all of them are 0
   /// With a kernel vector: its determinant is long; or it is no product, of more than three rows, and the set is points.
   std::optional<ExpressionMatrix> block{};
   /// In place of Φ(q) = 0, where some coordinates are left out (set_parts.h).
@@ -44,7 +43,6 @@ struct Component {
   std::string relation() const {
     if (stratum && !is_rest) return stratum->text();
     if (dependent_angle) return dependent_angle->text();
-    if (condition) return condition->text() + " = 0";
     std::string text;
     const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
     for (const auto& [joint, value] : values) add(joint + " = " + value.text());
@@ -55,6 +53,9 @@ struct Component {
     return a.name == b.name || (!a.block && a.relation() == b.relation());
   }
 };
+
+/// "x - y = 0"; where that is long "condition on x, y".
+std::string name_of_condition(const Mechanism& mechanism, const Expression& condition);
 
 /// The parts of the set of a kernel_question(), in the order of M's rows, of a block the shortest condition first. One: the
 /// set is no union. None: M does not become square, or vanishes everywhere, or is singular nowhere for a reason that its

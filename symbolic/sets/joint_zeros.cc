@@ -31,12 +31,12 @@ const Coordinate& JointZeros::coordinate(const std::string& joint) const {
 
 RationalPolynomial JointZeros::at(RationalPolynomial f, const QuarterTurns& value) const {
   constexpr std::array<const char*, 4> kSines{"0", "1", "0", "-1"};
-  const auto [cosine, sine] = matrix_.unknowns_of(value.joint);
+  const Turning& joint = *std::ranges::find(turning_, value.joint, &Turning::name);
   const auto number = [&](int quarters) {
     return RationalPolynomial::number(matrix_.ring(), kSines[static_cast<std::size_t>(quarters % 4)]);
   };
-  if (cosine) f = f.with(*cosine, 1, number(value.quarters + 1));
-  if (sine) f = f.with(*sine, 1, number(value.quarters));
+  if (joint.cosine) f = f.with(*joint.cosine, 1, number(value.quarters + 1));
+  if (joint.sine) f = f.with(*joint.sine, 1, number(value.quarters));
   return f;
 }
 
@@ -47,10 +47,18 @@ std::size_t JointZeros::joints_in(const std::vector<RationalPolynomial>& polynom
   }));
 }
 
+std::array<int, 4> JointZeros::turns_to(const Coordinate& joint) const {
+  const double lower = exact_value(mechanism_, joint.lower, joint.name).enclose().lo();
+  const int below = static_cast<int>(std::floor(lower / (2 * std::numbers::pi)));  // or one more or less, by rounding
+  std::array<int, 4> turns{below - 1, below, below + 1, below + 2};
+  std::ranges::stable_sort(turns, {}, [](int k) { return std::abs(k); });
+  return turns;
+}
+
 std::optional<Expression> JointZeros::value_of(const QuarterTurns& value) const {
   const Coordinate& c = coordinate(value.joint);
-  for (const int turns : {0, -1, 1}) {
-    const int quarters = (value.quarters + 1) % 4 - 1 + 4 * turns;  // −1, 0, 1, 2: the principal values first
+  for (const int turns : turns_to(c)) {
+    const int quarters = (value.quarters + 1) % 4 - 1 + 4 * turns;  // of −1, 0, 1, 2
     const std::string half = quarters % 2 == 0 ? "" : "/2";
     const int times = quarters % 2 == 0 ? quarters / 2 : quarters;
     const std::string multiple = std::abs(times) == 1 ? (times < 0 ? "-pi" : "pi") : std::to_string(times) + "*pi";
@@ -70,15 +78,15 @@ bool JointZeros::vanishes_nowhere(const RationalPolynomial& f, const Turning& jo
     Interval coefficient;
     std::array<std::uint64_t, 2> powers;
   };
-  constexpr double kMargin = 1e-9;  // of angles computed in doubles
+  constexpr double kMargin = 1e-8;  // of angles computed in doubles
   constexpr double kSmallest = 1e-3;
   const UpwardRounding rounding;
   const Coordinate& c = coordinate(joint.name);
   const double lower = exact_value(mechanism_, c.lower, c.name).enclose().lo() - kMargin,
                upper = exact_value(mechanism_, c.upper, c.name).enclose().hi() + kMargin;
-  const auto is_outside = [&](double from, double to) {
+  const auto is_outside = [&, all = turns_to(c)](double from, double to) {
     if (from > to) std::swap(from, to);
-    return std::ranges::all_of(std::array{-1, 0, 1}, [&](int turns) {
+    return std::ranges::all_of(all, [&](int turns) {
       const double shift = 2 * std::numbers::pi * turns;
       return to + shift < lower || from + shift > upper;
     });
@@ -108,20 +116,23 @@ bool JointZeros::vanishes_nowhere(const RationalPolynomial& f, const Turning& jo
 RationalPolynomial JointZeros::by_half_angles(const RationalPolynomial& f) const {
   const auto number = [&](const std::string& value) { return RationalPolynomial::number(half_, value); };
   const std::vector<RationalPolynomial::Term> terms = f.terms();
+  std::vector<std::uint64_t> degrees(turning_.size(), 0);
+  for (const auto& t : terms)
+    for (std::size_t k = 0; k < turning_.size(); ++k)
+      degrees[k] = std::max(degrees[k], turning_[k].cosines(t) + turning_[k].sines(t));
   RationalPolynomial result(half_);
   for (const auto& t : terms) {
     RationalPolynomial product = number(t.coefficient);
     for (std::size_t u = 0; u < t.powers.size(); ++u)
       if (!is_of_joint_[u]) product = product * RationalPolynomial::unknown(half_, other(u)).power(t.powers[u]);
-    for (const Turning& joint : turning_) {
-      std::uint64_t degree = 0;
-      for (const auto& each : terms) degree = std::max(degree, joint.cosines(each) + joint.sines(each));
+    for (std::size_t k = 0; k < turning_.size(); ++k) {
+      const Turning& joint = turning_[k];
       const std::uint64_t i = joint.cosines(t), j = joint.sines(t);
       const RationalPolynomial s = RationalPolynomial::unknown(half_, joint.half_sine),
                                c = RationalPolynomial::unknown(half_, joint.half_cosine);
-      if (degree > 0)
+      if (degrees[k] > 0)
         product =
-            product * (c * c - s * s).power(i) * (number("2") * s * c).power(j) * (c * c + s * s).power(degree - i - j);
+            product * (c * c - s * s).power(i) * (number("2") * s * c).power(j) * (c * c + s * s).power(degrees[k] - i - j);
     }
     result = result + product;
   }
@@ -176,7 +187,7 @@ std::optional<JointZeros::Zeros> JointZeros::by_factors(const RationalPolynomial
     }
     std::optional<RationalPolynomial> whole = by_whole_angles(factor);
     if (!whole) return std::nullopt;
-    if (!matrix_.condition(*whole)) {  // a constant
+    if (first == turning_.end() && !matrix_.condition(*whole)) {  // a constant
       const Expression constant = matrix_.expression(*whole);
       if (exact_value(mechanism_, constant, constant.text()).sign().value_or(0) != 0) continue;
       return std::nullopt;

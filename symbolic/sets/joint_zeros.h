@@ -5,6 +5,7 @@
 // cos θ and sin θ 1 − cos θ and sin θ have a zero in common, but no factor.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -54,6 +55,9 @@ class JointZeros {
   /// In half_, behind two of each joint.
   std::size_t other(std::size_t unknown) const { return 2 * turning_.size() + unknown; }
   const Coordinate& coordinate(const std::string& joint) const;
+  /// All that can take an angle from −π/2 to 3π/2 into the joint's range, as does the least that takes it to the range's
+  /// lower end or beyond; those nearest to 0 first.
+  std::array<int, 4> turns_to(const Coordinate& joint) const;
   RationalPolynomial by_half_angles(const RationalPolynomial& f) const;
   /// Back again; nothing where f's degree in a joint is odd.
   std::optional<RationalPolynomial> by_whole_angles(const RationalPolynomial& f) const;

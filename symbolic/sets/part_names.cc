@@ -115,10 +115,10 @@ bool is_of_corank(const Constant& constant) {
 void name_by_values(const Mechanism& mechanism, std::vector<Component>& parts) {
   const RoundedValues values(mechanism);
   for (Component& part : parts) {
-    if (!part.condition || !values.are_in(*part.condition)) continue;
-    const std::string exact = part.condition->text() + " = 0";
+    if (part.conditions.size() != 1 || !values.are_in(part.conditions.front())) continue;
+    const std::string exact = part.conditions.front().text() + " = 0";
     if (!part.name.starts_with(exact)) continue;  // it says which coordinates it is about
-    const std::string name = values.put_into(*part.condition).text() + " = 0" + part.name.substr(exact.size());
+    const std::string name = values.put_into(part.conditions.front()).text() + " = 0" + part.name.substr(exact.size());
     const auto has_it = [&name](const Component& other) { return other.name == name || other.former_name == name; };
     if (std::ranges::none_of(parts, has_it)) part.former_name = std::exchange(part.name, name);
   }

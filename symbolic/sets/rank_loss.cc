@@ -179,30 +179,18 @@ bool RankLoss::split(std::vector<RationalPolynomial> all, const Held& held) {
   return true;
 }
 
-std::string names_where(const TrigonometricSystem& system, const auto& is_one) {
-  std::vector<std::string> names;
-  for (const Coordinate& c : system.coordinates)
-    if (is_one(c)) names.push_back(c.name);
-  return listed(names);
-}
-
 std::optional<Component> RankLoss::component_of(const Loss& loss) const {
   Component part;
   for (const auto& [joint, quarters] : loss.held) part.values.emplace_back(joint, *zeros_.value_of({joint, quarters}));
-  const auto add_to_name = [&](const std::string& words) { part.name += (part.name.empty() ? "" : ", ") + words; };
-  for (const auto& [joint, value] : part.values) add_to_name(joint + " = " + value.text());
+  part.name = part.relation();
   for (const RationalPolynomial& f : loss.conditions) {
     std::optional<Expression> condition = matrix_->condition(f);
     if (!condition) return std::nullopt;
     part.conditions.push_back(std::move(*condition));
   }
   std::ranges::sort(part.conditions, {}, [](const Expression& e) { return std::pair(e.text().size(), e.text()); });
-  for (const Expression& condition : part.conditions) {
-    constexpr std::size_t kLongestText = 60;
-    const std::string text = condition.text();
-    const auto is_in = [&](const Coordinate& c) { return condition.mentions(c.name); };
-    add_to_name(text.size() <= kLongestText ? text + " = 0" : "condition on " + names_where(free_.system, is_in));
-  }
+  for (const Expression& condition : part.conditions)
+    part.name += (part.name.empty() ? "" : ", ") + name_of_condition(mechanism_, condition);
   std::vector<Expression> functions;
   if (part.conditions.empty()) {  // a joint stands in for those that move
     const auto moves = [&](const Coordinate& c) { return !is_fixed(c) && !loss.held.contains(c.name); };

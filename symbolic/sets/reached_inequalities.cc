@@ -20,9 +20,7 @@ bool mentions(const Relation& relation, const std::string& name) {
 std::vector<Coordinate> at_limits(const Mechanism& mechanism, const std::vector<Active>& active) {
   std::vector<Coordinate> all = mechanism.coordinates();
   for (const Active& a : active)
-    if (!a.inequality)
-      for (Coordinate& c : all)
-        if (c.name == a.name) c.lower = c.upper = a.value, c.has_range = true;
+    if (!a.inequality) hold(all, a.name, a.value);
   return all;
 }
 

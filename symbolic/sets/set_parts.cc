@@ -58,12 +58,13 @@ std::vector<Component> simplified(const Mechanism& mechanism, std::vector<Compon
         part.factor = std::make_shared<const TrigonometricSystem>(std::move(*factor));
         part.joints = {part.dependent_angle->other};
       }
-    if (auto turn = part.condition ? without_free_turn(mechanism, *part.condition) : std::nullopt) {
+    const bool has_one = part.conditions.size() == 1;
+    if (auto turn = has_one ? without_free_turn(mechanism, part.conditions.front()) : std::nullopt) {
       part.factor = std::make_shared<const TrigonometricSystem>(std::move(turn->system));
       part.joints = {std::move(turn->angle)};
       part.condition_in_factor = true;
-    } else if (part.condition) {
-      part.stratum = double_stratum(mechanism, *part.condition, ended);
+    } else if (has_one) {
+      part.stratum = double_stratum(mechanism, part.conditions.front(), ended);
     }
     if (part.stratum) {
       Component on = part;
@@ -314,9 +315,8 @@ TrigonometricSystem SetEquations::system(const std::vector<std::string>& scales,
 void SetEquations::set_at_limits(const BoundaryPart& part, TrigonometricSystem& system) const {
   for (const BoundaryPart::Active& active : part.active) {
     if (active.inequality) continue;
-    const auto at = std::ranges::find(system.coordinates, active.name, &Coordinate::name);
-    CORANK_CHECK(at != system.coordinates.end());
-    at->lower = at->upper = active.value;
+    const bool is_there = hold(system.coordinates, active.name, active.value);
+    CORANK_CHECK(is_there);
   }
   system.name += ": " + part.text();
 }
@@ -328,8 +328,7 @@ void SetEquations::add_condition(const Component& part, TrigonometricSystem& sys
   };
   if (part.dependent_angle && has(part.dependent_angle->angle)) system.dependent_angle = part.dependent_angle;
   if (system.dependent_angle) system.equations.push_back({part.dependent_angle->relation(), part.name, where, true, true});
-  if (part.condition && !part.condition_in_factor)
-    system.equations.push_back({*part.condition == Expression(0), part.name, where, true});
+  if (part.condition_in_factor) return;
   for (const Expression& e : part.conditions) system.equations.push_back({e == Expression(0), part.name, where, true});
 }
 

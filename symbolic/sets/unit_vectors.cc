@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -44,30 +43,41 @@ class VectorProducts {
 
  private:
   struct Vector {
-    std::vector<std::string> names;                      // of the components
-    std::vector<RationalPolynomial> components, values;  // as unknowns; what Φ says of them
+    std::vector<std::string> names;          // of the components
+    std::vector<std::size_t> unknowns;       // these are
+    std::vector<RationalPolynomial> values;  // by Φ
     std::vector<std::pair<RationalPolynomial, std::size_t>> sum;
     std::vector<std::pair<RationalPolynomial, std::pair<std::size_t, std::size_t>>> cross_products;
     bool is_sum() const { return !sum.empty() || !cross_products.empty(); }
   };
 
-  RationalPolynomial entry(std::size_t column) const { return exact_->determinant({{0}, {column}}); }
-  RationalPolynomial zero() const { return entry(0); }
-  RationalPolynomial one() const { return entry(1); }
+  RationalPolynomial zero() const { return RationalPolynomial(exact_.ring()); }
+  RationalPolynomial unknown(std::size_t index) const { return RationalPolynomial::unknown(exact_.ring(), index); }
+  std::vector<RationalPolynomial> components(std::size_t v) const {
+    std::vector<RationalPolynomial> result;
+    for (const std::size_t k : vectors_[v].unknowns) result.push_back(unknown(k));
+    return result;
+  }
   RationalPolynomial reduced(const RationalPolynomial& f) const {
     constexpr std::size_t kLongest = 5000;
     if (f.size() > kLongest) throw DeterminantTooLarge({}, "a product of vectors with many terms", "shorter vectors");
-    return exact_->modulo_circles(f);
+    return exact_.modulo_circles(f);
   }
 
   // f is linear in it; what stands beside.
-  RationalPolynomial coefficient(const RationalPolynomial& f, const RationalPolynomial& component) const;
-  RationalPolynomial without_vectors(RationalPolynomial f) const;
+  RationalPolynomial coefficient(const RationalPolynomial& f, std::size_t component) const {
+    return *(f - f.with(component, 1, zero())).divided_by(unknown(component));
+  }
+  RationalPolynomial without_vectors(RationalPolynomial f) const {
+    for (const Vector& v : vectors_)
+      for (const std::size_t component : v.unknowns) f = f.with(component, 1, zero());
+    return f;
+  }
   void put_as_sum(std::size_t v);
 
   bool has_length_one(std::size_t v) {
     try {
-      return dot(v, v) == one();
+      return dot(v, v) == RationalPolynomial::number(exact_.ring(), "1");
     } catch (const DeterminantTooLarge&) {
       return false;
     }
@@ -76,57 +86,28 @@ class VectorProducts {
   RationalPolynomial dot(std::size_t v, std::size_t w);
   RationalPolynomial triple(std::array<std::size_t, 3> v);
 
-  std::unique_ptr<const ExactMatrix> exact_;
+  const ExactMatrix exact_;
   std::vector<Vector> vectors_;  // in the order in which Φ gives them
   std::map<std::pair<std::size_t, std::size_t>, RationalPolynomial> dots_;
   std::map<std::array<std::size_t, 3>, RationalPolynomial> triples_;
 };
 
-VectorProducts::VectorProducts(const Mechanism& mechanism) {
-  const std::vector<Expression> phi = residuals(mechanism);
-  std::map<std::string, Expression> values;
+VectorProducts::VectorProducts(const Mechanism& mechanism) : exact_(mechanism, {}, residuals(mechanism)) {
   std::map<std::string, std::size_t> places;
-  for (const Relation& r : ExactMatrix(mechanism, {}, phi).given()) {
-    places.emplace(r.lhs.name(), places.size());
-    values.emplace(r.lhs.name(), r.rhs);
+  for (const Relation& r : exact_.given()) places.emplace(r.lhs.name(), places.size());
+  std::map<std::string, Vector> vectors;  // "u_link2": of "u_link2_x" …
+  for (const Coordinate& c : mechanism.coordinates()) {
+    const auto place = places.find(c.name);
+    if (!c.auxiliary || c.kind != CoordinateKind::length || place == places.end()) continue;
+    const ExactMatrix::Explicit& given = exact_.given_polynomials()[place->second];
+    Vector& v = vectors[c.name.substr(0, c.name.rfind('_'))];
+    v.names.push_back(c.name);
+    v.unknowns.push_back(given.unknown);
+    v.values.push_back(given.value);
   }
-  std::map<std::string, std::vector<std::string>> components;  // "u_link2": "u_link2_x" …
-  for (const Coordinate& c : mechanism.coordinates())
-    if (c.auxiliary && c.kind == CoordinateKind::length && values.contains(c.name))
-      components[c.name.substr(0, c.name.rfind('_'))].push_back(c.name);
-  for (auto& [stem, names] : components) vectors_.push_back({std::move(names), {}, {}, {}, {}});
+  for (auto& [stem, vector] : vectors) vectors_.push_back(std::move(vector));
   std::ranges::stable_sort(vectors_, {}, [&](const Vector& v) { return places.at(v.names.back()); });
-  ExpressionMatrix entries;
-  entries.rows.push_back({Expression(0), Expression(1)});
-  for (const Vector& v : vectors_)
-    for (const std::string& name : v.names) {
-      entries.rows.front().push_back(Expression::symbol(name));
-      entries.rows.front().push_back(values.at(name));
-    }
-  for (std::size_t k = 0; k < entries.rows.front().size(); ++k) entries.columns.push_back(std::to_string(k));
-  exact_ = std::make_unique<ExactMatrix>(mechanism, entries, phi, ExactMatrix::Shape::wide);
-  std::size_t column = 2;
-  for (Vector& v : vectors_)
-    for (std::size_t i = 0; i < v.names.size(); ++i) {
-      v.components.push_back(entry(column++));
-      v.values.push_back(entry(column++));
-    }
   for (std::size_t v = 0; v < vectors_.size(); ++v) put_as_sum(v);
-}
-
-std::size_t index_of(const RationalPolynomial& unknown) {
-  const std::vector<std::uint64_t> powers = unknown.terms().front().powers;
-  return static_cast<std::size_t>(std::ranges::find(powers, 1U) - powers.begin());
-}
-
-RationalPolynomial VectorProducts::coefficient(const RationalPolynomial& f, const RationalPolynomial& component) const {
-  return *(f - f.with(index_of(component), 1, zero())).divided_by(component);
-}
-
-RationalPolynomial VectorProducts::without_vectors(RationalPolynomial f) const {
-  for (const Vector& v : vectors_)
-    for (const RationalPolynomial& component : v.components) f = f.with(index_of(component), 1, zero());
-  return f;
 }
 
 // Where the coefficients of its first component are those of the others, too.
@@ -136,21 +117,21 @@ void VectorProducts::put_as_sum(std::size_t v) {
   if (own.names.size() != kDimension) return;
   Vector read = own;
   for (std::size_t a = 0; a < v; ++a) {
-    const std::vector<RationalPolynomial>& x = vectors_[a].components;
+    const std::vector<std::size_t>& x = vectors_[a].unknowns;
     if (x.size() != kDimension) continue;
     if (const auto p = without_vectors(coefficient(own.values[0], x[0])); !p.is_zero()) read.sum.emplace_back(p, a);
     const RationalPolynomial by_second = coefficient(own.values[0], x[1]);
     for (std::size_t b = a + 1; b < v && !by_second.is_zero(); ++b) {
-      if (vectors_[b].components.size() != kDimension) continue;
-      const auto p = without_vectors(coefficient(by_second, vectors_[b].components[2]));
+      if (vectors_[b].unknowns.size() != kDimension) continue;
+      const auto p = without_vectors(coefficient(by_second, vectors_[b].unknowns[2]));
       if (!p.is_zero()) read.cross_products.emplace_back(p, std::pair(a, b));
     }
   }
   for (std::size_t i = 0; i < kDimension; ++i) {
     RationalPolynomial rest = own.values[i];
-    for (const auto& [p, a] : read.sum) rest = rest - p * vectors_[a].components[i];
+    for (const auto& [p, a] : read.sum) rest = rest - p * unknown(vectors_[a].unknowns[i]);
     for (const auto& [p, pair] : read.cross_products) {
-      const auto &a = vectors_[pair.first].components, &b = vectors_[pair.second].components;
+      const auto a = components(pair.first), b = components(pair.second);
       const std::size_t j = (i + 1) % kDimension, k = (i + 2) % kDimension;
       rest = rest - p * (a[j] * b[k] - a[k] * b[j]);
     }
@@ -164,9 +145,9 @@ RationalPolynomial VectorProducts::dot(std::size_t v, std::size_t w) {
   if (const auto known = dots_.find({v, w}); known != dots_.end()) return known->second;
   RationalPolynomial result = zero();
   if (!vectors_[v].is_sum() && !vectors_[w].is_sum()) {
-    for (std::size_t i = 0; i < vectors_[v].names.size(); ++i)
-      result = result + vectors_[v].components[i] * vectors_[w].components[i];
-    result = exact_->in_free_coordinates(result);
+    const auto x = components(v), y = components(w);
+    for (std::size_t i = 0; i < x.size(); ++i) result = result + x[i] * y[i];
+    result = exact_.in_free_coordinates(result);
   } else {
     const auto& [sum, other] = vectors_[v].is_sum() ? std::pair(v, w) : std::pair(w, v);
     for (const auto& [p, a] : vectors_[sum].sum) result = result + p * dot(a, other);
@@ -185,12 +166,12 @@ RationalPolynomial VectorProducts::triple(std::array<std::size_t, 3> v) {
   const auto& [a, b, last] = v;
   RationalPolynomial result = zero();
   if (!vectors_[last].is_sum()) {
-    const auto &x = vectors_[a].components, &y = vectors_[b].components, &z = vectors_[last].components;
+    const auto x = components(a), y = components(b), z = components(last);
     for (std::size_t i = 0; i < x.size(); ++i) {
       const std::size_t j = (i + 1) % x.size(), k = (i + 2) % x.size();
       result = result + x[i] * (y[j] * z[k] - y[k] * z[j]);
     }
-    result = exact_->in_free_coordinates(result);
+    result = exact_.in_free_coordinates(result);
   }
   for (const auto& [p, c] : vectors_[last].sum) result = result + p * triple({a, b, c});
   for (const auto& [p, pair] : vectors_[last].cross_products)

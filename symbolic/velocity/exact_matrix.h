@@ -66,7 +66,14 @@ class ExactMatrix {
   bool is_explicit() const { return explicit_.size() == equations_; }
   /// Those coordinates and what they are, x = f, in the equations' order.
   std::vector<Relation> given() const;
+  /// The same as polynomials, and the ring's unknown that stands for x.
+  struct Explicit {
+    std::size_t unknown;
+    RationalPolynomial value;
+  };
+  const std::vector<Explicit>& given_polynomials() const { return explicit_; }
 
+  /// Of all polynomials here.
   const PolynomialRing& ring() const;
   struct UnknownsOfAngle {
     std::optional<std::size_t> cosine, sine;  ///< where they occur
@@ -83,10 +90,6 @@ class ExactMatrix {
   std::vector<std::vector<std::size_t>> filled() const;
 
   class Unknowns;
-  struct Explicit {
-    std::size_t unknown;
-    RationalPolynomial value;
-  };
   RationalPolynomial without_squares(const RationalPolynomial& f, std::size_t gone, std::size_t kept) const;
   RationalPolynomial normal(RationalPolynomial f) const;  // no square of a sine or of √a: 0 where these show it
   bool turn_rows(std::size_t first, std::size_t second, std::size_t leading);

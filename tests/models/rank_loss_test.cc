@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <limits>
@@ -161,7 +162,7 @@ std::vector<Part> parts_of(const symbolic::Mechanism& mechanism) {
   std::vector<Part> parts;
   for (const symbolic::SetPart& part : symbolic::set_parts(mechanism, symbolic::SingularitySet::inverse)) {
     const auto& component = std::get<symbolic::Component>(part);
-    if (component.block || component.condition || component.dependent_angle) return {};
+    if (component.block || component.dependent_angle) return {};
     Part& own = parts.emplace_back(Part{component.name, {}, component.conditions, symbolic::constant_values(mechanism)});
     for (const auto& [joint, value] : component.values)
       own.values.emplace(std::stoul(joint.substr(1)) - 1, symbolic::evaluate(value, {{"pi", kPi}}));
@@ -240,6 +241,49 @@ TEST(RankLoss, OfAShoulderAnElbowAndAWristIsKnown) {
   EXPECT_EQ(names_of_parts(position),
             (std::vector<std::string>{"q4 = 0, q6 = 0", "q2 = 0, q3 = -pi/2, q6 = 0", "q2 = 0, q3 = pi/2, q6 = 0",
                                       "q2 = 0, q3 = 0, q4 = 0, q5 = -pi/2", "q2 = 0, q3 = 0, q4 = 0, q5 = pi/2"}));
+}
+
+// A joint's range may be turns away: its sine and cosine are the same.
+TEST(RankLoss, IsTheSameSomeTurnsAway) {
+  constexpr const char* kPanda = R"([DH]
+modified
+a alpha d theta
+0 0 0.333 q1
+0 -90deg 0 q2 limits [-100deg, 100deg]
+0 90deg 0.316 q3 limits [-165deg, 165deg]
+0.0825 90deg 0 q4 limits {}
+-0.0825 -90deg 0.384 q5 limits [-165deg, 165deg]
+0 90deg 0 q6 limits [0deg, 215deg]
+0.088 90deg 0.107 q7
+[OUTPUTS]
+tip : pose of tool
+)";
+  const std::string stretched = std::string(kSevenJoints) + "pose of tool\n";
+  const auto relations = [](const std::string& text) {
+    std::vector<std::string> result;
+    const auto model = study::parse_model({.text = text, .file = "arm.cuik"});
+    for (const symbolic::SetPart& part : symbolic::set_parts(model.mechanism, symbolic::SingularitySet::inverse))
+      result.push_back(std::get<symbolic::Component>(part).relation());
+    return result;
+  };
+  const auto range = [](int turns, int from, int to) {
+    return fmt::format("[{}deg, {}deg]", 360 * turns + from, 360 * turns + to);
+  };
+  for (const int turns : {0, 1, 2, 3, -1, -2, -4}) {
+    SCOPED_TRACE(turns);
+    std::string arm = stretched;
+    const std::string own = "q4 limits [-120deg, 120deg]";
+    arm.replace(arm.find(own), own.size(), "q4 limits " + range(turns, -20, 40));
+    const std::string zero = turns == 0             ? "0"
+                             : std::abs(turns) == 1 ? (turns < 0 ? "-2*pi" : "2*pi")
+                                                    : fmt::format("{}*pi", 2 * turns);
+    const std::vector<std::string> found = relations(arm);
+    EXPECT_EQ(found.size(), 6U);
+    EXPECT_NE(std::ranges::find(found, "q4 = " + zero), found.end());
+    // One of its minors vanishes at q4 = -0.467, no multiple of 90 degrees.
+    EXPECT_EQ(relations(fmt::format(fmt::runtime(kPanda), range(turns, -176, -4))),
+              relations(fmt::format(fmt::runtime(kPanda), range(0, -176, -4))));
+  }
 }
 
 }  // namespace

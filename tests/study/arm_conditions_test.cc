@@ -88,7 +88,7 @@ struct RandomArm {
 };
 
 double value_of(const symbolic::Component& part, const std::map<std::string, double>& q) {
-  if (part.condition) return symbolic::evaluate(*part.condition, q);
+  if (!part.conditions.empty()) return symbolic::evaluate(part.conditions.front(), q);
   const symbolic::DependentAngle& angle = part.dependent_angle.value();
   return std::sin((q.at(angle.angle) - angle.sign * q.at(angle.other) - angle.quarters * pi / 2) / 2);
 }
@@ -152,7 +152,8 @@ TEST(SetPartsOf, RandomArmsOfSixJointsAreConditionsOnTheirJoints) {
     for (const Question& question : questions)
       if (question.part) parts.push_back(std::get<symbolic::Component>(*question.part));
     const auto in_joints = [](const symbolic::Component& part) {
-      return part.dependent_angle || (part.condition && part.condition->text().find("_link") == std::string::npos);
+      return part.dependent_angle ||
+             (!part.conditions.empty() && part.conditions.front().text().find("_link") == std::string::npos);
     };
     if (parts.empty() || !std::all_of(parts.begin(), parts.end(), in_joints)) {
       ++with_vectors;

@@ -34,7 +34,7 @@ long double value_of(const Component& part, const Values& at) {
     const DependentAngle& t = *part.dependent_angle;
     return std::sin((at.at(t.angle) - t.sign * at.at(t.other) - t.quarters * pi_v<long double> / 2) / 2);
   }
-  return part.condition ? evaluate(*part.condition, at) : determinant_at(part.block->rows, at);
+  return !part.conditions.empty() ? evaluate(part.conditions.front(), at) : determinant_at(part.block->rows, at);
 }
 
 class Planted {

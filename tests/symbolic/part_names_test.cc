@@ -11,7 +11,7 @@ TEST(PartNames, HaveRoundedValuesInPlaceOfCoranksOwnConstantsAndOfLongNumbers) {
   for (const auto& [name, value] : {std::pair("l", "2"), {"k1", "1/3"}, {"k2", "sqrt(2)"}, {"k3", "-k2"}, {"kx", "sqrt(3)"}})
     mechanism.constant(name, value);
   const auto name_of = [&](const std::string& condition) {
-    std::vector<Component> parts{{.name = condition + " = 0", .condition = Expression(condition)}};
+    std::vector<Component> parts{{.name = condition + " = 0", .conditions = {Expression(condition)}}};
     name_by_values(mechanism, parts);
     EXPECT_EQ(parts[0].former_name, parts[0].name == condition + " = 0" ? "" : condition + " = 0");
     return parts[0].name;
@@ -32,10 +32,10 @@ TEST(PartNames, AreNotTheSameWhereValuesRoundToTheSame) {
   Mechanism mechanism("m");
   mechanism.constant("k1", "sqrt(2)");
   mechanism.constant("k2", "sqrt(2.00000001)");
-  std::vector<Component> parts{{.name = "k1*x - y = 0", .condition = Expression("k1*x - y")},
-                               {.name = "k2*x - y = 0", .condition = Expression("k2*x - y")},
-                               {.name = "k1*x + y = 0, elsewhere", .condition = Expression("k1*x + y"), .is_rest = true},
-                               {.name = "condition on x, y", .condition = Expression("k1*x^2 + y")}};
+  std::vector<Component> parts{{.name = "k1*x - y = 0", .conditions = {Expression("k1*x - y")}},
+                               {.name = "k2*x - y = 0", .conditions = {Expression("k2*x - y")}},
+                               {.name = "k1*x + y = 0, elsewhere", .conditions = {Expression("k1*x + y")}, .is_rest = true},
+                               {.name = "condition on x, y", .conditions = {Expression("k1*x^2 + y")}}};
   name_by_values(mechanism, parts);
   EXPECT_EQ(parts[0].name, "1.41421*x - y = 0");
   EXPECT_EQ(parts[1].name, "k2*x - y = 0");
