@@ -29,8 +29,8 @@ auto unlocked(F f) {
 }
 
 result::Checkpoint checkpoint_of(const std::vector<std::string>& arguments, const Files& files,
-                                 const std::vector<std::string>& finished) {
-  result::Checkpoint checkpoint{.arguments = arguments, .files = {}, .finished = finished, .state = {}};
+                                 const std::vector<std::string>& states, std::size_t under_way) {
+  result::Checkpoint checkpoint{.arguments = arguments, .files = {}, .states = states, .under_way = under_way};
   for (const auto& [option, name, text] : files) checkpoint.files.push_back({option, name, text});
   return checkpoint;
 }
@@ -76,8 +76,8 @@ class Run {
   bool done() { return run_->search().done(); }
   bool ended() { return run_->search().ended(); }
   double seconds_left() { return run_->seconds_left(); }
-  void keep_state(const std::vector<std::string>& arguments, const Files& files, const std::vector<std::string>& finished) {
-    unlocked([&] { run_->keep_state(checkpoint_of(arguments, files, finished)); });
+  void keep_state(const std::vector<std::string>& arguments, const Files& files, const std::vector<std::string>& states) {
+    unlocked([&] { run_->keep_state(checkpoint_of(arguments, files, states, finished())); });
   }
   double share_done() { return run_->search().share_done(); }
   py::bytes state() {
@@ -109,9 +109,9 @@ py::array_t<std::uint8_t> run_unit(std::string_view prepared, std::string_view u
 }
 
 void write_checkpoint(const std::filesystem::path& path, const std::vector<std::string>& arguments, const Files& files,
-                      const std::vector<std::string>& finished, std::string_view state) {
+                      const std::vector<std::string>& states, std::size_t under_way, std::string_view state) {
   const py::gil_scoped_release unlocked;
-  result::write_checkpoint(path, solve::engine_version(), checkpoint_of(arguments, files, finished),
+  result::write_checkpoint(path, solve::engine_version(), checkpoint_of(arguments, files, states, under_way),
                            [state](std::ostream& out) { out << state; });
 }
 
@@ -119,7 +119,7 @@ py::tuple read_checkpoint(const std::filesystem::path& path) {
   const result::Checkpoint c = result::read_checkpoint(path, solve::engine_version());
   py::list files;
   for (const auto& file : c.files) files.append(py::make_tuple(file.option, file.path, file.text));
-  return py::make_tuple(c.arguments, files, bytes_list(c.finished), py::bytes(c.state));
+  return py::make_tuple(c.arguments, files, bytes_list(c.states));
 }
 
 }  // namespace

@@ -55,15 +55,61 @@ void describe_states(const kinematics::Assembly& assembly, result::Result& resul
   }
 }
 
-result::Result answer_one(const Question& question, const System& system, const Options& options, solve::Control& control,
-                          RunJournal* journal) {
-  const Asked asked = prepare(question, system, options, control);
-  const solve::Prepared& prepared = asked.prepared;
-  Cover cover = journal ? solve::solve_on(prepared, control, journal, journal->next_search(prepared))
-                        : solve::solve(prepared, control);
-  solve::settle(prepared, asked.settling, cover, control);
-  return describe(question, system, options, std::move(cover), control.ending());
-}
+// The searches of a run. Each has its turns, so that one without an end leaves time to the others.
+class Searches {
+ public:
+  Searches(const Options& options, solve::Control& control, RunJournal& journal, std::size_t number)
+      : options_(options), control_(control), journal_(journal), searches_(number) {
+    journal_.expect(number);
+    const solve::Options& search = options.search;
+    if (number > 1 && search.max_found == 0 && search.max_solutions == 0)  // which count what one search finds
+      boxes_ = std::min((options.boxes_of_first_turns + number - 1) / number, kMostOfFirstTurn);
+  }
+
+  std::vector<result::Result> run(const std::vector<Question>& questions, const std::vector<System>& systems) {
+    for (bool all = false; !all; boxes_ *= kGrowth) {
+      all = true;
+      for (std::size_t i = 0; i < searches_.size(); ++i)
+        if (!searches_[i].result && !turn(i, questions[i], systems[i])) all = false;
+    }
+    std::vector<result::Result> results;
+    for (Search& search : searches_) results.push_back(std::move(*search.result));
+    return results;
+  }
+
+ private:
+  static constexpr std::uint64_t kMostOfFirstTurn = 200'000, kGrowth = 4;
+  struct Search {
+    std::optional<Asked> asked;
+    std::optional<result::Result> result;
+  };
+
+  bool turn(std::size_t i, const Question& question, const System& system) {
+    auto& [asked, result] = searches_[i];
+    if (!asked) asked = prepare(question, system, options_, control_);
+    std::optional<solve::SearchState> state = journal_.begin(i, asked->prepared);
+    count_states();
+    std::optional<Cover> cover = solve::solve_turn(asked->prepared, control_, journal_, boxes_, std::move(state));
+    if (!cover) return false;
+    solve::settle(asked->prepared, asked->settling, *cover, control_);
+    result = describe(question, system, options_, std::move(*cover), control_.ending());
+    asked.reset();
+    return true;
+  }
+
+  // Their memory; to make covers of them takes time.
+  void count_states() {
+    const auto now = static_cast<std::int64_t>(journal_.bytes_of_others());
+    control_.keep(now - std::exchange(bytes_, now));
+  }
+
+  const Options& options_;
+  solve::Control& control_;
+  RunJournal& journal_;
+  std::vector<Search> searches_;
+  std::int64_t bytes_ = 0;
+  std::uint64_t boxes_ = 0;  // of a turn; 0: as many as it takes
+};
 
 }  // namespace
 
@@ -140,19 +186,19 @@ result::Result join(const std::vector<Question>& parts, std::vector<result::Resu
 result::Result answer(const Systems& systems, const Options& options, solve::Control& control, RunJournal* journal) {
   const auto& [parts, of_parts] = systems;
   for (const System& system : of_parts) check_options(options.search, system);
-  if (journal) journal->expect(parts.size());
   CORANK_CHECK(!parts.empty() && parts.size() == of_parts.size());
-  std::vector<result::Result> results;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    results.push_back(answer_one(parts[i], of_parts[i], options, control, journal));
-  result::Result result = join(parts, std::move(results));
+  RunJournal none({}, {});
+  result::Result result =
+      join(parts, Searches(options, control, journal ? *journal : none, parts.size()).run(parts, of_parts));
   search_assembly(parts.front(), control, result);
   return result;
 }
 
 result::Result answer(const Question& question, const System& system, const Options& options, solve::Control& control,
                       RunJournal* journal) {
-  result::Result result = answer_one(question, system, options, control, journal);
+  RunJournal none({}, {});
+  result::Result result =
+      std::move(Searches(options, control, journal ? *journal : none, 1).run({question}, {system}).front());
   search_assembly(question, control, result);
   return result;
 }

@@ -25,21 +25,25 @@ std::uint64_t bytes_of(const solve::SearchView& state) {
 }  // namespace
 
 RunJournal::RunJournal(result::Checkpoint from, Plan plan) : known_(std::move(from)), plan_(std::move(plan)) {
+  if (known_.states.empty()) known_.states.resize(1);
   plan_next(Clock::now());
 }
 
-std::optional<solve::SearchState> RunJournal::next_search(const solve::Prepared& prepared) {
-  if (ended_) return std::nullopt;
-  const std::size_t index = searches_++;
-  if (index > 0 && index > known_.finished.size()) known_.finished.push_back(std::exchange(last_, {}));
-  const bool resumed = index < known_.finished.size();
-  const std::string state = resumed ? known_.finished[index] : std::exchange(known_.state, {});
+std::optional<solve::SearchState> RunJournal::begin(std::size_t search, const solve::Prepared& prepared) {
+  known_.under_way = search;
+  const std::string state = std::exchange(known_.states.at(search), {});
   if (state.empty()) return std::nullopt;
   try {
     return solve::state_from(state, prepared);
   } catch (const solve::ShardError& error) {
     throw result::ResultFileError(error.what());
   }
+}
+
+std::uint64_t RunJournal::bytes_of_others() const {
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < known_.states.size(); ++i) sum += i == known_.under_way ? 0 : known_.states[i].size();
+  return sum;
 }
 
 bool RunJournal::due() {
@@ -65,21 +69,21 @@ void RunJournal::keep(const solve::SearchView& state, solve::Moment moment) {
   using solve::Moment;
   const auto asked = asked_.exchange(0);
   const auto begun = asked > 0 ? Clock::time_point(Clock::duration(asked)) : Clock::now();
-  // What is done was kept before; what follows an end is not of the run any more.
-  if (ended_ || searches_ <= known_.finished.size()) return;
+  if (ended_) return;  // what follows is not of the run any more
   const auto state_writer = [&state](std::ostream& out) { solve::write(out, state); };
   ended_ = moment == Moment::ended;
-  const bool to_file = ended_ || moment == Moment::paused || (moment == Moment::cut && due());
+  const bool is_over = moment == Moment::turn_over || moment == Moment::cut;
+  const bool to_file = ended_ || moment == Moment::paused || (is_over && due());
   if (to_file && !plan_.path.empty()) {
     result::write_checkpoint(plan_.path, solve::engine_version(), known_, state_writer);
     asked_ = 0;
     plan_next(begun);
   }
-  const std::uint64_t bytes = bytes_of(state);
+  const std::uint64_t bytes = bytes_of(state) + bytes_of_others();
   left_out_ = plan_.keep_end && ended_ && bytes >= plan_.most_in_result ? bytes : 0;
   if (plan_.keep_end && ended_ && left_out_ == 0)
     search_ = result::checkpoint_bytes(solve::engine_version(), known_, state_writer, bytes);
-  if (searches_ < expected_ && moment == Moment::cut) last_ = solve::to_bytes(state);
+  if (is_over && known_.states.size() > 1) known_.states[known_.under_way] = solve::to_bytes(state);
 }
 
 }  // namespace corank::study

@@ -1,4 +1,4 @@
-// What a run of several searches, one after the other, keeps of them: each goes on from where it was.
+// What a run of several searches, in turns, keeps of them: each goes on from where it was.
 #pragma once
 
 #include <atomic>
@@ -28,11 +28,13 @@ class RunJournal : public solve::Journal {
   /// `from`: what a former run has kept, or the arguments and files of a new one.
   RunJournal(result::Checkpoint from, Plan plan);
 
-  /// How many searches are to come, unless another number is said.
-  void expect(std::size_t searches) { expected_ = searches; }
-  /// The next of the run's searches begins: the state from which it goes on, or nothing. Throws result::ResultFileError
-  /// where that is damaged.
-  std::optional<solve::SearchState> next_search(const solve::Prepared& prepared);
+  /// The run has so many searches; 1 unless another number is said.
+  void expect(std::size_t searches) { known_.states.resize(searches); }
+  /// It is the turn of one of them: the state from which it goes on, or nothing. Throws result::ResultFileError where that
+  /// is damaged.
+  std::optional<solve::SearchState> begin(std::size_t search, const solve::Prepared& prepared);
+  /// Bytes of the states of searches whose turn it is not.
+  std::uint64_t bytes_of_others() const;
   bool due() override;
   void keep(const solve::SearchView& state, solve::Moment moment) override;
 
@@ -45,10 +47,8 @@ class RunJournal : public solve::Journal {
   using Clock = std::chrono::steady_clock;
   void plan_next(Clock::time_point begun);
 
-  result::Checkpoint known_;  // the searches before, and what a former run has left of the one that is to come
+  result::Checkpoint known_;
   const Plan plan_;
-  std::size_t searches_ = 0, expected_ = 1;
-  std::string last_;  // of the search that is under way, where others follow it
   bool ended_ = false;
   std::atomic<Clock::duration::rep> next_;
   std::atomic<Clock::duration::rep> asked_{0};

@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -80,8 +81,11 @@ void write(std::ostream& raw, const std::string& version, const Checkpoint& chec
   for (const std::string& argument : checkpoint.arguments) put(out, argument);
   put(out, checkpoint.files.size(), 8);
   for (const Checkpoint::File& file : checkpoint.files) put(out, file.option), put(out, file.path), put(out, file.text);
-  put(out, checkpoint.finished.size(), 8);
-  for (const std::string& finished : checkpoint.finished) put(out, finished);
+  put(out, checkpoint.states.size(), 8);
+  const std::string none;
+  for (std::size_t i = 0; i < checkpoint.states.size(); ++i)
+    put(out, i == checkpoint.under_way ? none : checkpoint.states[i]);
+  put(out, checkpoint.under_way, 8);
   if (state) state(out);  // all the rest is it
   const std::uint32_t sum = buffer.sum();
   put(raw, sum, kSumBytes);
@@ -151,8 +155,12 @@ Checkpoint parse(const std::filesystem::path& path, std::string_view bytes, cons
     std::string option = parser.text(), name = parser.text();
     checkpoint.files.push_back({std::move(option), std::move(name), parser.text()});
   });
-  parser.list([&] { checkpoint.finished.push_back(parser.text()); });
-  checkpoint.state = parser.rest();
+  parser.list([&] { checkpoint.states.push_back(parser.text()); });
+  checkpoint.under_way = parser.number(8);
+  constexpr std::size_t kMostSearches = 1'000'000;
+  if (checkpoint.under_way > kMostSearches) refuse(path, "a damaged checkpoint: it is of too many searches");
+  checkpoint.states.resize(std::max(checkpoint.states.size(), checkpoint.under_way + 1));
+  checkpoint.states[checkpoint.under_way] = parser.rest();
   return checkpoint;
 }
 

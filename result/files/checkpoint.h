@@ -1,7 +1,8 @@
 // Checkpoints: what a run can go on from, in a file of its own or in the result of a run that was ended early.
 //
 //   corank checkpoint, version 0.1.0 (search 3f9a01c2b7d4)     one line; another version's is refused
-//   arguments, files, states                                   each text behind its length, 8 bytes, little-endian
+//   arguments, files, states, the number of the search         each text behind its length, 8 bytes, little-endian
+//   that is under way, its state
 //   CRC-32 of all that, 4 bytes, little-endian
 // The states are solve/store/shard_bytes.h's. In a result file all this is the array /search/state.
 #pragma once
@@ -24,14 +25,14 @@ struct Checkpoint {
   };
   std::vector<std::string> arguments;  ///< of the command line, without files and limits
   std::vector<File> files;
-  std::vector<std::string> finished;  ///< the last states of the searches that have been finished, in their order
-  std::string state;                  ///< of the search that is under way; empty: none had begun
+  std::vector<std::string> states;  ///< the last ones of the run's searches, in their order; empty: it has not begun
+  std::size_t under_way = 0;        ///< the search whose turn it was
 };
 
 using StateWriter = std::function<void(std::ostream&)>;
 
 /// Writes a new file, has the disk take it, and only then gives it its name: at every moment `path` holds this checkpoint or
-/// the one before. `checkpoint` is without its state, which `state` writes. Throws ResultFileError.
+/// the one before. `state` writes that of the search that is under way. Throws ResultFileError.
 void write_checkpoint(const std::filesystem::path& path, const std::string& version, const Checkpoint& checkpoint,
                       const StateWriter& state);
 /// The same as Result::search. Room for `expected` bytes is made at once.

@@ -37,10 +37,12 @@ class Search {
     pool_.set_sigma(sigma_);
   }
 
-  Cover run() {
+  /// Nothing where the journal has got the state of a search whose turn is over.
+  std::optional<Cover> run() {
     if (prepared_.reduction.consistent) {
       const InStage stage(control_, Stage::search);
       if (!cutting_) search();
+      if (turn_is_over_) return std::nullopt;
       cut();
     }
     Cover cover;
@@ -134,7 +136,8 @@ class Search {
 
   // The last state that can be gone on from: what follows is made for the result.
   void end(const SearchView& state) {
-    keep(state, Moment::ended);
+    turn_is_over_ = tally_.turn_is_over();
+    keep(state, turn_is_over_ ? Moment::turn_over : Moment::ended);
     journal_ = nullptr;
     tally_.forget_journal();
   }
@@ -146,6 +149,7 @@ class Search {
   Work pass_;
   SelfMotions motions_;
   bool cutting_;
+  bool turn_is_over_ = false;
   const double seconds_before_;
   Tally tally_;
   Pool pool_;
@@ -153,8 +157,8 @@ class Search {
 };
 
 // To free millions of sheets takes as long as a search of seconds; with the process they go at once.
-Cover run(std::unique_ptr<Search> search, const Control& control) {
-  Cover cover = search->run();
+std::optional<Cover> run(std::unique_ptr<Search> search, const Control& control) {
+  std::optional<Cover> cover = search->run();
   if (control.limits().leaves_memory && control.ended()) {
     static std::mutex mutex;
     static auto* const left = new std::vector<std::unique_ptr<Search>>;
@@ -177,11 +181,17 @@ Cover solve(const System& system, const Options& options) {
 }
 
 Cover solve(const Prepared& prepared, Control& control, std::uint64_t most) {
-  return run(std::make_unique<Search>(prepared, control, most, nullptr, beginning(prepared)), control);
+  return *run(std::make_unique<Search>(prepared, control, most, nullptr, beginning(prepared)), control);
 }
 
 Cover solve_on(const Prepared& prepared, Control& control, Journal* journal, std::optional<SearchState> from) {
-  return run(std::make_unique<Search>(prepared, control, 0, journal, from ? std::move(*from) : beginning(prepared)),
+  return *run(std::make_unique<Search>(prepared, control, 0, journal, from ? std::move(*from) : beginning(prepared)),
+              control);
+}
+
+std::optional<Cover> solve_turn(const Prepared& prepared, Control& control, Journal& journal, std::uint64_t most,
+                                std::optional<SearchState> from) {
+  return run(std::make_unique<Search>(prepared, control, most, &journal, from ? std::move(*from) : beginning(prepared)),
              control);
 }
 

@@ -44,9 +44,10 @@ struct SearchView {
 
 /// The moments at which a search offers its state.
 enum class Moment : std::uint8_t {
-  paused,  ///< the journal was due
-  ended,   ///< a limit or an interrupt ends the search
-  cut      ///< nothing is left to do
+  paused,     ///< the journal was due
+  turn_over,  ///< solve_turn() has processed its boxes
+  ended,      ///< a limit or an interrupt ends the search
+  cut         ///< nothing is left to do
 };
 
 class Journal {
@@ -61,5 +62,10 @@ class Journal {
 /// solve::solve with a journal, where one is given, and from a state on, which is of a search of the same system with the
 /// same options but for limits and threads.
 Cover solve_on(const Prepared& prepared, Control& control, Journal* journal, std::optional<SearchState> from = {});
+
+/// A part of it: nothing, unless `most` boxes more were enough or the run has ended. The journal then has the state to go on
+/// from. 0: no limit.
+std::optional<Cover> solve_turn(const Prepared& prepared, Control& control, Journal& journal, std::uint64_t most,
+                                std::optional<SearchState> from = {});
 
 }  // namespace corank::solve

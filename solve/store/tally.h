@@ -85,6 +85,10 @@ class Tally {
   void keep_waiting(std::size_t boxes, std::int64_t& before);
 
   bool ended();
+  /// Has it ended by `most`, and not the run?
+  bool turn_is_over() const {
+    return most_ > 0 && processed_.load(std::memory_order_relaxed) >= most_ && !out_of_time() && !control_.search_ended();
+  }
   /// The run ended a while ago: what is found and not yet a box becomes one without any more work.
   bool overdue(double seconds) const { return control_.overdue(seconds); }
   /// All threads are to stop between two boxes or sheets, until resume().

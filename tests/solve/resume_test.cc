@@ -93,6 +93,31 @@ TEST(Resuming, ASelfMotionMakesTheCoverOfOneSearch) {
   expect_same_when_resumed(plane_and_line(), options, 100, 8);
 }
 
+TEST(Resuming, TurnsMakeTheCoverOfOneSearch) {
+  Options options;
+  options.sigma = 0.3;
+  for (const bool proof : {false, true}) {
+    options.proof = proof;
+    for (const System& system : {torus().system(), lemniscate(), plane_and_line(), circle_and_diagonal().system()}) {
+      const Prepared prepared = prepared_with(system, options);
+      Control control;
+      const Cover whole = solve(prepared, control);
+      for (const std::uint64_t turns_meant : {2u, 7u}) {
+        const std::uint64_t most = whole.statistics.processed / turns_meant + 1;
+        RandomJournal journal(1, 1'000'000, 1000);
+        std::optional<Cover> cover = solve_turn(prepared, control, journal, most);
+        for (int turns = 1; !cover && turns < 1000; ++turns) {
+          EXPECT_EQ(journal.last, Moment::turn_over);
+          cover = solve_turn(prepared, control, journal, most, state_from(journal.bytes, prepared));
+        }
+        ASSERT_TRUE(cover);
+        EXPECT_FALSE(control.ending());
+        expect_same(whole, *cover);
+      }
+    }
+  }
+}
+
 TEST(Resuming, PointsMakeTheCoverOfOneSearch) { expect_same_when_resumed(circle_and_diagonal().system(), {}, 3, 4); }
 
 // What limits end at any box, or at any look at the clock, among the sheets as well: searches by some limits, one after the

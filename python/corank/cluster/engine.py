@@ -40,33 +40,29 @@ class Checkpoints:
         self.every = every
         self.arguments = list(arguments)
         self.files = list(files)
-        self.finished: List[bytes] = []
-        self.state: Optional[bytes] = None
+        self.states: List[bytes] = []  # of the run's searches
         self._ended = False
         self._next = time.monotonic() + every
 
     @classmethod
     def read(cls, path: PathLike, every: float = 60.0) -> "Checkpoints":
         """Raises ResultFileError where there is none, or one of another version."""
-        arguments, files, finished, state = _corank.read_checkpoint(os.fspath(path))
+        arguments, files, states = _corank.read_checkpoint(os.fspath(path))
         known = cls(path, every, arguments, files)
-        known.finished, known.state = finished, state or None
+        known.states = states
         return known
 
     def next_state(self, search: int) -> Optional[bytes]:
         """From where this search goes on."""
-        if search < len(self.finished):
-            return self.finished[search]
-        state, self.state = self.state, None
-        return state
+        return self.states[search] or None if search < len(self.states) else None
 
     def keep(self, run: _corank.SpreadRun, now: bool = False) -> None:
         """Writes the file where it is time to, or at once. Where it cannot be written, the last one stays."""
         begun = time.monotonic()
-        if self.path is None or self._ended or (begun < self._next and not now) or run.finished < len(self.finished):
+        if self.path is None or self._ended or (begun < self._next and not now):
             return
         try:
-            _corank.write_checkpoint(self.path, self.arguments, self.files, self.finished, run.state())
+            _corank.write_checkpoint(self.path, self.arguments, self.files, self.states, run.finished, run.state())
         except OSError as error:
             print(
                 f"corank.cluster: no checkpoint could be written, the last good one stays: {error}",
@@ -82,15 +78,16 @@ class Checkpoints:
         if not self._ended and had_begun:
             self.keep(run, now=True)
         if not self._ended and had_begun and self.into_result:
-            run.keep_state(self.arguments, self.files, self.finished)
+            run.keep_state(self.arguments, self.files, self.states)
         self._ended = True
 
     def finish(self, run: _corank.SpreadRun) -> None:
         """The search is done; its last state is kept beside the next one's."""
         if self._ended:
             return
-        if run.finished >= len(self.finished) and run.finished + 1 < run.searches:
-            self.finished.append(run.state())
+        if run.finished + 1 < run.searches:
+            self.states += [b""] * (run.finished + 1 - len(self.states))
+            self.states[run.finished] = run.state()
         else:
             self.keep(run, now=True)
 
