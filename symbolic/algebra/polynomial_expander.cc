@@ -194,6 +194,13 @@ PolynomialExpander::CosineAndSine PolynomialExpander::of_lengths(const std::map<
   return {c, negative ? -s : s};
 }
 
+PolynomialExpander::CosineAndSine PolynomialExpander::of_constant(const Expression& argument, const ConstantValue& value) {
+  std::string text = argument.text();
+  if (const auto known = of_constants_.find(text); known != of_constants_.end()) return known->second;
+  CosineAndSine both{ConstantValue::function("cos", value), ConstantValue::function("sin", value)};
+  return of_constants_.emplace(std::move(text), std::move(both)).first->second;
+}
+
 ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e) {
   const LinearForm form = guarded(e, [&] { return linear_form(e.operands()[0]); });
   std::map<std::string, int> angles;
@@ -226,7 +233,7 @@ ExpandedPolynomial PolynomialExpander::expand_sine_or_cosine(const Expression& e
   }
   return guarded(e, [&] {
     // cos and sin of the sum so far; then cos(a + b) = cos a cos b − sin a sin b, sin(a + b) = sin a cos b + cos a sin b.
-    ExpandedPolynomial cosine = ConstantValue::function("cos", offset), sine = ConstantValue::function("sin", offset);
+    auto [cosine, sine] = of_constant(e.operands()[0], offset);
     const auto add = [&](const CosineAndSine& b) {
       ExpandedPolynomial next = cosine * b.first - sine * b.second;
       sine = sine * b.first + cosine * b.second;

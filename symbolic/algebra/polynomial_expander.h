@@ -56,6 +56,7 @@ class PolynomialExpander {
   ExpandedPolynomial expand_sine_or_cosine(const Expression& e);
   LinearForm linear_form(const Expression& e);
   int whole_multiple(const Expression& e, const std::string& angle, const ConstantValue& multiple) const;
+  CosineAndSine of_constant(const Expression& argument, const ConstantValue& value);
   CosineAndSine of_lengths(const std::map<std::string, ConstantValue>& multiples);
   bool is_angle(const std::string& name) const {
     return angles_.contains(name) || fixed_angles_.contains(name) || dependent_angles_.contains(name);
@@ -72,6 +73,7 @@ class PolynomialExpander {
   std::map<std::string, AngleVariables> angles_;
   std::map<std::string, ConstantValue> fixed_angles_;
   std::map<std::string, DependentAngle> dependent_angles_;
+  std::map<std::string, CosineAndSine> of_constants_;  // by the argument's text: a fixed angle occurs in many terms
   LengthFunctions length_functions_;
   std::string what_;      // being expanded, for messages
   SourceLocation where_;  // its place

@@ -197,7 +197,14 @@ std::optional<JointZeros::Zeros> JointZeros::by_factors(const RationalPolynomial
   return zeros;
 }
 
-std::optional<JointZeros::Zeros> JointZeros::of(const RationalPolynomial& f) const {
+std::optional<JointZeros::Zeros> JointZeros::of(const RationalPolynomial& f) {
+  const auto is_same = [&](const auto& known) { return known.first.size() == f.size() && known.first == f; };
+  auto known = std::ranges::find_if(known_, is_same);
+  if (known == known_.end()) known = known_.emplace(known_.end(), f, found(f));
+  return known->second;
+}
+
+std::optional<JointZeros::Zeros> JointZeros::found(const RationalPolynomial& f) const {
   Zeros zeros;
   const auto factors = f.factors(ended_);
   if (!factors) return std::nullopt;

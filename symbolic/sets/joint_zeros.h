@@ -36,7 +36,7 @@ class JointZeros {
     bool empty() const { return values.empty() && factors.empty(); }
   };
   /// Nothing where the factors are not found.
-  std::optional<Zeros> of(const RationalPolynomial& f) const;
+  std::optional<Zeros> of(const RationalPolynomial& f);
   RationalPolynomial at(RationalPolynomial f, const QuarterTurns& value) const;
   /// The angle in the joint's range, exactly; modulo 2π.
   std::optional<Expression> value_of(const QuarterTurns& value) const;
@@ -62,6 +62,7 @@ class JointZeros {
   /// Back again; nothing where f's degree in a joint is odd.
   std::optional<RationalPolynomial> by_whole_angles(const RationalPolynomial& f) const;
   std::optional<Zeros> by_factors(const RationalPolynomial& f) const;
+  std::optional<Zeros> found(const RationalPolynomial& f) const;
   bool add_zeros_of_joint(const RationalPolynomial& f, const Turning& joint, Zeros& zeros) const;
   bool vanishes_nowhere(const RationalPolynomial& f, const Turning& joint) const;
 
@@ -72,6 +73,7 @@ class JointZeros {
   std::vector<Turning> turning_;
   std::vector<bool> is_of_joint_;  // of the matrix's unknowns
   PolynomialRing half_{0};
+  std::vector<std::pair<RationalPolynomial, std::optional<Zeros>>> known_;  // cases meet the same ones again
 };
 
 }  // namespace corank::symbolic
