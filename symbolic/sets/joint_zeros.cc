@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <numbers>
 
+#include "corank/certify/trigonometric.h"
 #include "corank/core/rounding.h"
 #include "corank/symbolic/algebra/exact_value.h"
 
@@ -71,46 +73,114 @@ std::optional<Expression> JointZeros::value_of(const QuarterTurns& value) const 
   return std::nullopt;
 }
 
-// No zero of f(S, C), homogeneous, at angles θ of the joint's range: by intervals, S = sin(θ/2)/r and C = cos(θ/2)/r in
-// parts of S = 1 and of C = 1.
-bool JointZeros::vanishes_nowhere(const RationalPolynomial& f, const Turning& joint) const {
+bool JointZeros::have_no_common_zero(const std::vector<RationalPolynomial>& polynomials,
+                                     const std::vector<Function>& functions, double share) const {
+  constexpr std::size_t kMostBoxes = 50'000;
+  constexpr double kSmallest = 1e-3;
   struct Term {
     Interval coefficient;
-    std::array<std::uint64_t, 2> powers;
+    std::vector<std::pair<std::size_t, int>> powers;  // of functions
   };
-  constexpr double kMargin = 1e-8;  // of angles computed in doubles
-  constexpr double kSmallest = 1e-3;
   const UpwardRounding rounding;
-  const Coordinate& c = coordinate(joint.name);
-  const double lower = exact_value(mechanism_, c.lower, c.name).enclose().lo() - kMargin,
-               upper = exact_value(mechanism_, c.upper, c.name).enclose().hi() + kMargin;
-  const auto is_outside = [&, all = turns_to(c)](double from, double to) {
-    if (from > to) std::swap(from, to);
-    return std::ranges::all_of(all, [&](int turns) {
-      const double shift = 2 * std::numbers::pi * turns;
-      return to + shift < lower || from + shift > upper;
-    });
-  };
-  std::vector<Term> terms;
-  for (const RationalPolynomial::Term& t : f.terms())
-    terms.push_back(
-        {ExactNumber::rational(t.coefficient).enclose(), {t.powers[joint.half_sine], t.powers[joint.half_cosine]}});
-  for (const std::size_t varies : {0, 1}) {
-    const auto angle = [&](double t) { return 2 * (varies == 0 ? std::atan2(t, 1.0) : std::atan2(1.0, t)); };
-    std::vector<Interval> open{Interval(-1, 1)};
-    while (!open.empty()) {
-      const Interval t = open.back();
-      open.pop_back();
-      if (is_outside(angle(t.lo()), angle(t.hi()))) continue;
+  std::vector<std::vector<Term>> all;
+  for (const RationalPolynomial& f : polynomials) {
+    all.emplace_back();
+    std::size_t known = 0;
+    for (const Function& function : functions) known += f.mentions(function.unknown);
+    if (known < f.unknowns()) return false;  // an irrational number
+    for (const RationalPolynomial::Term& t : f.terms()) {
+      Term& term = all.back().emplace_back(Term{ExactNumber::rational(t.coefficient).enclose(), {}});
+      for (std::size_t k = 0; k < functions.size(); ++k)
+        if (const auto power = t.powers[functions[k].unknown]; power > 0)
+          term.powers.emplace_back(k, static_cast<int>(power));
+    }
+  }
+  std::vector<const Turning*> joints;
+  std::vector<std::size_t> joint_of;
+  std::vector<Interval> ranges;
+  for (const Function& function : functions) {
+    const auto known = std::ranges::find(joints, function.joint);
+    joint_of.push_back(static_cast<std::size_t>(known - joints.begin()));
+    if (known != joints.end()) continue;
+    joints.push_back(function.joint);
+    const Coordinate& c = coordinate(function.joint->name);
+    const Interval lower = exact_value(mechanism_, c.lower, c.name).enclose(),
+                   upper = exact_value(mechanism_, c.upper, c.name).enclose();
+    const Interval turn = Interval(lower.lo()) + Interval(0, 7);  // more than a turn
+    ranges.emplace_back(lower.lo(), std::min(upper.hi(), turn.hi()));
+  }
+  std::vector<std::vector<Interval>> open{ranges};
+  for (std::size_t boxes = 0; !open.empty(); ++boxes) {
+    const std::vector<Interval> box = std::move(open.back());
+    open.pop_back();
+    std::vector<Interval> values;
+    for (std::size_t k = 0; k < functions.size(); ++k) {
+      const Interval angle = Interval(share) * box[joint_of[k]];
+      values.push_back(functions[k].is_sine ? certify::sine(angle) : certify::cosine(angle));
+    }
+    const auto is_not_zero = [&](const std::vector<Term>& terms) {
       Interval sum(0);
-      for (const Term& term : terms) sum += term.coefficient * power(t, static_cast<int>(term.powers[varies]));
-      if (!sum.contains_zero()) continue;
-      if (t.width() < kSmallest) return false;
-      open.emplace_back(t.lo(), t.mid());
-      open.emplace_back(t.mid(), t.hi());
+      for (const Term& t : terms) {
+        Interval product = t.coefficient;
+        for (const auto& [k, exponent] : t.powers) product *= power(values[k], exponent);
+        sum += product;
+      }
+      return !sum.contains_zero();
+    };
+    if (std::ranges::any_of(all, is_not_zero)) continue;
+    const auto widest = std::ranges::max_element(box, {}, [](const Interval& x) { return x.width(); });
+    if (widest == box.end() || widest->width() < kSmallest || boxes > kMostBoxes) return false;
+    const auto side = static_cast<std::size_t>(widest - box.begin());
+    for (const Interval& half : {Interval(widest->lo(), widest->mid()), Interval(widest->mid(), widest->hi())}) {
+      open.push_back(box);
+      open.back()[side] = half;
     }
   }
   return true;
+}
+
+bool JointZeros::have_no_common_zero(const std::vector<RationalPolynomial>& polynomials) const {
+  std::vector<Function> functions;
+  for (const Turning& joint : turning_)
+    for (const auto& [unknown, is_sine] : {std::pair(joint.cosine, false), std::pair(joint.sine, true)}) {
+      const auto is_in = [&](const RationalPolynomial& f) { return f.mentions(*unknown); };
+      if (unknown && std::ranges::any_of(polynomials, is_in)) functions.push_back({*unknown, &joint, is_sine});
+    }
+  return have_no_common_zero(polynomials, functions, 1);
+}
+
+JointZeros::Zeros JointZeros::Zeros::chosen(const Zeros& other, bool has) const {
+  const auto is_chosen = [&](const auto& x) { return other.has(x) == has; };
+  Zeros result;
+  std::ranges::copy_if(values, std::back_inserter(result.values), is_chosen);
+  std::ranges::copy_if(factors, std::back_inserter(result.factors), is_chosen);
+  return result;
+}
+
+void JointZeros::Zeros::add(const Zeros& other) {
+  const Zeros more = other.chosen(*this, false);
+  values.insert(values.end(), more.values.begin(), more.values.end());
+  factors.insert(factors.end(), more.factors.begin(), more.factors.end());
+}
+
+RationalPolynomial JointZeros::product(const Zeros& zeros) const {
+  const auto number = [&](const char* text) { return RationalPolynomial::number(matrix_.ring(), text); };
+  RationalPolynomial result = number("1");
+  for (const QuarterTurns& value : zeros.values) {
+    const Turning& joint = *std::ranges::find(turning_, value.joint, &Turning::name);
+    const std::optional<std::size_t> u = value.quarters % 2 == 0 ? joint.cosine : joint.sine;
+    if (!u) return number("0");  // it is not known where
+    const RationalPolynomial f = RationalPolynomial::unknown(matrix_.ring(), *u);
+    result = result * (value.quarters < 2 ? number("1") - f : number("1") + f);
+  }
+  for (const RationalPolynomial& factor : zeros.factors) result = result * factor;
+  return result;
+}
+
+std::vector<std::string> JointZeros::joints() const {
+  std::vector<std::string> names;
+  for (const Turning& joint : turning_) names.push_back(joint.name);
+  return names;
 }
 
 RationalPolynomial JointZeros::by_half_angles(const RationalPolynomial& f) const {
@@ -169,7 +239,7 @@ bool JointZeros::add_zeros_of_joint(const RationalPolynomial& f, const Turning& 
     if (const QuarterTurns value{joint.name, static_cast<int>(k)}; value_of(value)) zeros.values.push_back(value);
     return true;
   }
-  return vanishes_nowhere(f, joint);
+  return have_no_common_zero({f}, {{joint.half_sine, &joint, true}, {joint.half_cosine, &joint, false}}, 0.5);
 }
 
 // Nothing where a factor has no polynomial in sines and cosines of whole angles.
@@ -213,8 +283,8 @@ std::optional<JointZeros::Zeros> JointZeros::found(const RationalPolynomial& f) 
     if (g.is_zero()) return std::nullopt;
     if (g.is_number()) continue;
     if (const std::optional<Zeros> own = by_factors(g)) {
-      zeros.values.insert(zeros.values.end(), own->values.begin(), own->values.end());
-      zeros.factors.insert(zeros.factors.end(), own->factors.begin(), own->factors.end());
+      zeros.add(*own);
+
     } else {
       zeros.factors.push_back(g);
     }

@@ -5,6 +5,7 @@
 // cos θ and sin θ 1 − cos θ and sin θ have a zero in common, but no factor.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -34,12 +35,24 @@ class JointZeros {
     std::vector<QuarterTurns> values;
     std::vector<RationalPolynomial> factors;
     bool empty() const { return values.empty() && factors.empty(); }
+    bool has(const QuarterTurns& value) const { return std::ranges::find(values, value) != values.end(); }
+    bool has(const RationalPolynomial& factor) const { return std::ranges::find(factors, factor) != factors.end(); }
+    /// Those that `other` has, or has not.
+    Zeros chosen(const Zeros& other, bool has) const;
+    void add(const Zeros& other);
+    bool is_within(const Zeros& other) const { return chosen(other, false).empty(); }
   };
   /// Nothing where the factors are not found.
   std::optional<Zeros> of(const RationalPolynomial& f);
   RationalPolynomial at(RationalPolynomial f, const QuarterTurns& value) const;
   /// The angle in the joint's range, exactly; modulo 2π.
   std::optional<Expression> value_of(const QuarterTurns& value) const;
+  /// Are these shown to have no zero in common in the joints' ranges? By intervals of the joints.
+  bool have_no_common_zero(const std::vector<RationalPolynomial>& polynomials) const;
+  /// A polynomial with these zeros; of an angle one minus the cosine of the difference to it.
+  RationalPolynomial product(const Zeros& zeros) const;
+  /// The joints that turn.
+  std::vector<std::string> joints() const;
   /// How many joints turn that these are about.
   std::size_t joints_in(const std::vector<RationalPolynomial>& polynomials) const;
 
@@ -64,7 +77,14 @@ class JointZeros {
   std::optional<Zeros> by_factors(const RationalPolynomial& f) const;
   std::optional<Zeros> found(const RationalPolynomial& f) const;
   bool add_zeros_of_joint(const RationalPolynomial& f, const Turning& joint, Zeros& zeros) const;
-  bool vanishes_nowhere(const RationalPolynomial& f, const Turning& joint) const;
+  /// A sine or a cosine of a joint's angle, or of half of it, as an unknown.
+  struct Function {
+    std::size_t unknown;
+    const Turning* joint;
+    bool is_sine;
+  };
+  bool have_no_common_zero(const std::vector<RationalPolynomial>& polynomials, const std::vector<Function>& functions,
+                           double share) const;
 
   const Mechanism& mechanism_;
   const std::vector<Coordinate>& coordinates_;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <numeric>
+#include <tuple>
 
 #include "corank/symbolic/model/expression_words.h"
 #include "corank/symbolic/sets/arm_boundary.h"
+#include "corank/symbolic/sets/dependent_columns.h"
 #include "corank/symbolic/sets/joint_zeros.h"
 
 namespace corank::symbolic {
@@ -17,6 +20,9 @@ using Zeros = JointZeros::Zeros;
 
 /// Joints at multiples of π/2: 0, 1, 2, 3 of them.
 using Held = std::map<std::string, int>;
+/// Of joints.
+using JointValues = std::vector<std::pair<std::string, Expression>>;
+constexpr std::size_t kFewRows = 3;
 
 /// {values, conditions = 0}.
 struct Loss {
@@ -35,30 +41,53 @@ std::unique_ptr<const ExactMatrix> with_values(const Mechanism& mechanism, Expre
   return exact;
 }
 
+// The product of the joints' ranges but for these values.
+std::optional<Component> part_at(const FreeCoordinates& free, const JointValues& values) {
+  Component part;
+  part.values = values;
+  part.name = part.relation();
+  const auto moves = [&](const Coordinate& c) {
+    return !is_fixed(c) && std::ranges::find(values, c.name, &JointValues::value_type::first) == values.end();
+  };
+  const auto first = std::ranges::find_if(free.system.coordinates, moves);  // stands in for those that move
+  if (first == free.system.coordinates.end()) return std::nullopt;
+  return put_in_factor(free, {Expression::symbol(first->name)}, part) ? std::optional(std::move(part)) : std::nullopt;
+}
+
 class RankLoss {
  public:
-  RankLoss(const Mechanism& mechanism, const ExpressionMatrix& matrix, const FreeCoordinates& free, const Ended& ended)
+  /// `held`: values of joints that have been put into the matrix.
+  RankLoss(const Mechanism& mechanism, const ExpressionMatrix& matrix, const FreeCoordinates& free, const JointValues& held,
+           const Ended& ended)
       : mechanism_(mechanism),
         free_(free),
+        held_(held),
         ended_(ended),
         matrix_(with_values(mechanism, matrix, ended)),
         zeros_(mechanism, free, *matrix_, ended) {}
 
-  /// False where there are too many minors, or these are too long.
+  /// By a known left kernel vector, else by all minors. False where that says nothing, or there are too many minors, or
+  /// these are too long.
   bool run() {
     try {
-      const std::optional<std::vector<RationalPolynomial>> all = minors();
-      return all && split(*all, {});
+      if (std::optional<std::vector<RationalPolynomial>> conditions = rank_conditions(*matrix_, zeros_))
+        if (split(std::move(*conditions), {})) return true;
+      losses_.clear();
+      asked_ = 0;
+      std::optional<std::vector<RationalPolynomial>> all = minors();
+      return all && split(std::move(*all), {});
     } catch (const DeterminantTooLarge&) {
       return false;
     }
   }
 
+  const ExactMatrix& matrix() const { return *matrix_; }
+  const JointZeros& zeros() const { return zeros_; }
+
   /// None where a kernel vector says it better. A part of a smaller dimension than is expected has conditions that depend on
   /// each other, and its boxes stay undecided. With a kernel vector of three components there are fewer of these; one of six
   /// takes so long that only parts with too many conditions for their joints count.
   std::vector<Component> components() const {
-    constexpr std::size_t kFewRows = 3;
     const std::size_t expected = matrix_->columns().size() - matrix_->size() + 1;
     std::vector<Component> result;
     std::ptrdiff_t good = 0, bad = 0;
@@ -76,12 +105,6 @@ class RankLoss {
       result.push_back(std::move(*component));
     }
     if (good <= bad) return {};
-    // The largest first. FLINT's order is another in each process.
-    std::ranges::sort(result, {},
-                      [](const Component& c) { return std::pair(c.values.size() + c.conditions.size(), c.relation()); });
-    std::map<std::string, int> alike;
-    for (Component& c : result)
-      if (const int number = ++alike[c.name]; number > 1) c.name += " (" + std::to_string(number) + ")";
     return result;
   }
 
@@ -118,9 +141,9 @@ class RankLoss {
     });
   }
   std::optional<Component> component_of(const Loss& loss) const;
-
   const Mechanism& mechanism_;
   const FreeCoordinates& free_;
+  const JointValues& held_;
   const Ended& ended_;
   std::unique_ptr<const ExactMatrix> matrix_;
   JointZeros zeros_;
@@ -181,7 +204,9 @@ bool RankLoss::split(std::vector<RationalPolynomial> all, const Held& held) {
 
 std::optional<Component> RankLoss::component_of(const Loss& loss) const {
   Component part;
+  part.values = held_;
   for (const auto& [joint, quarters] : loss.held) part.values.emplace_back(joint, *zeros_.value_of({joint, quarters}));
+  if (loss.conditions.empty()) return part_at(free_, part.values);
   part.name = part.relation();
   for (const RationalPolynomial& f : loss.conditions) {
     std::optional<Expression> condition = matrix_->condition(f);
@@ -189,24 +214,75 @@ std::optional<Component> RankLoss::component_of(const Loss& loss) const {
     part.conditions.push_back(std::move(*condition));
   }
   std::ranges::sort(part.conditions, {}, [](const Expression& e) { return std::pair(e.text().size(), e.text()); });
-  for (const Expression& condition : part.conditions)
-    part.name += (part.name.empty() ? "" : ", ") + name_of_condition(mechanism_, condition);
-  std::vector<Expression> functions;
-  if (part.conditions.empty()) {  // a joint stands in for those that move
-    const auto moves = [&](const Coordinate& c) { return !is_fixed(c) && !loss.held.contains(c.name); };
-    const auto first = std::ranges::find_if(free_.system.coordinates, moves);
-    if (first == free_.system.coordinates.end()) return std::nullopt;
-    functions.push_back(Expression::symbol(first->name));
+  std::vector<std::pair<std::string, int>> names;  // those of the same joints once
+  for (const Expression& condition : part.conditions) {
+    const std::string name = name_of_condition(mechanism_, condition);
+    const auto known = std::ranges::find(names, name, &std::pair<std::string, int>::first);
+    known == names.end() ? void(names.emplace_back(name, 1)) : void(++known->second);
   }
-  return put_in_factor(free_, std::move(functions), part) ? std::optional(std::move(part)) : std::nullopt;
+  for (const auto& [name, number] : names)
+    part.name += (part.name.empty() ? "" : ", ") +
+                 (number == 1 ? name : std::to_string(number) + " conditions" + name.substr(name.find(' ')));
+  return put_in_factor(free_, {}, part) ? std::optional(std::move(part)) : std::nullopt;
+}
+
+std::optional<Component> with_kernel_vector(ExpressionMatrix matrix, const JointValues& held, const FreeCoordinates& free) {
+  Component part;
+  part.values = held;
+  part.name = part.relation();
+  part.block = std::move(matrix);
+  if (!put_in_factor(free, {}, part)) return std::nullopt;
+  std::vector<Coordinate> moving = part.factor->coordinates;
+  std::erase_if(moving, is_fixed);
+  part.name += (part.name.empty() ? "" : ", ") + ("a kernel vector in " + listed(names_of(moving)));
+  return part;
+}
+
+// Nothing where there is no more to say than a kernel vector of the matrix does.
+std::vector<Component> losses_of(const Mechanism& mechanism, const ExpressionMatrix& matrix, const FreeCoordinates& free,
+                                 const JointValues& held, const Ended& ended, int depth = 0) {
+  constexpr int kDeepest = 2;
+  RankLoss loss(mechanism, matrix, free, held, ended);
+  if (loss.run())
+    if (std::vector<Component> parts = loss.components(); !parts.empty()) return parts;
+  if (matrix.rows.size() > kFewRows || depth == kDeepest) return {};
+  const auto agreeing = agreeing_columns(mechanism, loss.matrix(), loss.zeros(), ended);
+  if (!agreeing) return {};
+  std::vector<Component> parts;
+  bool all = true;
+  const auto add = [&](const ExpressionMatrix& m, const JointValues& values) {
+    std::vector<Component> own;
+    if (m.columns.size() >= m.rows.size()) own = losses_of(mechanism, m, free, values, ended, depth + 1);
+    if (own.empty()) {
+      auto part = m.columns.size() >= m.rows.size() ? with_kernel_vector(m, values, free) : part_at(free, values);
+      if (part) own.push_back(std::move(*part));
+      all = all && part;
+    }
+    std::ranges::move(own, std::back_inserter(parts));
+  };
+  for (const QuarterTurns& value : agreeing->values)
+    if (const std::optional<Expression> angle = loss.zeros().value_of(value)) {
+      JointValues values = held;
+      values.emplace_back(value.joint, *angle);
+      add(matrix_at(loss.matrix(), loss.zeros(), value), values);
+    }
+  add(agreeing->elsewhere, held);
+  return all ? parts : std::vector<Component>{};
 }
 
 }  // namespace
 
 std::vector<Component> rank_losses(const Mechanism& mechanism, const ExpressionMatrix& matrix, const FreeCoordinates& free,
                                    const Ended& ended) {
-  RankLoss loss(mechanism, matrix, free, ended);
-  return loss.run() ? loss.components() : std::vector<Component>{};
+  std::vector<Component> parts = losses_of(mechanism, matrix, free, {}, ended);
+  // The largest first. FLINT's order is another in each process.
+  std::ranges::sort(parts, {}, [](const Component& c) {
+    return std::tuple(c.block.has_value(), c.values.size() + c.conditions.size(), c.relation(), c.name);
+  });
+  std::map<std::string, int> alike;
+  for (Component& c : parts)
+    if (const int number = ++alike[c.name]; number > 1) c.name += " (" + std::to_string(number) + ")";
+  return parts;
 }
 
 }  // namespace corank::symbolic

@@ -81,6 +81,7 @@ class ExactMatrix {
   UnknownsOfAngle unknowns_of(const std::string& angle) const;
 
   Expression entry(std::size_t row, std::size_t column) const;
+  const RationalPolynomial& polynomial(std::size_t row, std::size_t column) const { return rows_[row][column]; }
   Expression expression(const RationalPolynomial& f) const;
   /// The one of ±f with the shorter text; nothing where f holds no coordinate.
   std::optional<Expression> condition(const RationalPolynomial& f) const;
