@@ -275,15 +275,16 @@ void Draft::output_of_joint(const Output& output, const std::optional<ex>& coord
   outputs_.push_back(symbol_of(output.joint, *coordinate));
 }
 
-std::array<bool, 3> Draft::output_components(const Output& output, const Vec& value) {
+void Draft::output_components(const Output& output, const Vec& value, bool may_rest) {
   const std::array<bool, 3> moves = moving(output, value);
+  if (!may_rest && moves == std::array<bool, 3>{})
+    throw ModelError(output.where, "the output '" + output.name + "' does not move", "a point of a link that moves");
   for (std::size_t i = 0; i < 3; ++i) {
     if (!moves[i]) continue;
     const ex coordinate = length(output.name + "_" + "xyz"[i], output.ranges[i], output.where);
     equation(coordinate - value[i], "output", output.where);
     outputs_.push_back(coordinate);
   }
-  return moves;
 }
 
 void Draft::at_least_zero(const ex& e, const std::string& note, const SourceLocation& where) {

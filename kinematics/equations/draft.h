@@ -128,8 +128,8 @@ class Draft {
   void output(const ex& coordinate) { outputs_.push_back(coordinate); }
   /// An output that is a joint's coordinate. Throws ModelError where it has none.
   void output_of_joint(const Output& output, const std::optional<ex>& coordinate);
-  /// Makes coordinates of the components that move; returns which.
-  std::array<bool, 3> output_components(const Output& output, const Vec& value);
+  /// Makes coordinates of the components that move. Throws ModelError where none does, unless it `may_rest`.
+  void output_components(const Output& output, const Vec& value, bool may_rest = false);
 
   /// The mechanism, with the robot's constants, and what its solutions mean.
   Assembly assembly() const;

@@ -205,8 +205,7 @@ class PlanarRobot : Drafter {
       seen.height = way.height;
       components = transpose(bodies_.placement[output.relative_to].rotation) * in_frame(group(base), seen);
     }
-    if (draft_.output_components(output, components) == std::array<bool, 3>{})
-      throw ModelError(output.where, "the output '" + output.name + "' does not move", "a point of a link that moves");
+    draft_.output_components(output, components);
   }
 
   Plane plane_;

@@ -261,7 +261,7 @@ class SpatialRobot : public Drafter {
     if (output.kind == Output::Kind::position || output.kind == Output::Kind::pose) {
       const Vec p = place({body, algebra_.clean(at.translation + turned), {}, {}});
       positions_.output_points.emplace(output.name, p);
-      draft_.output_components(output, p);
+      draft_.output_components(output, p, output.kind == Output::Kind::pose);
     } else if (output.kind == Output::Kind::direction) {
       draft_.output_components(output, positions_.image(body, algebra_.clean(algebra_.unit(turned))));
     }

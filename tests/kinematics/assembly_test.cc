@@ -368,6 +368,14 @@ TEST(Assembly, RefusesATurningThatIsNone) {
               HasSubstr("the output 'o' has a range of phi, but it turns in space; expected `keeps R` after it"));
 }
 
+TEST(Assembly, RefusesAPositionAtRest) {
+  const std::string wrist =
+      "[DH]\nstandard\na alpha d theta\n0 90deg 0.6 q1\n0 90deg 0 q2\n0 -90deg 0 q3\n[OUTPUTS]\ntip : ";
+  EXPECT_THAT(fault_of(wrist + "position of tool\n"),
+              HasSubstr("r.cuik:8:1: the output 'tip' does not move; expected a point"));
+  EXPECT_NO_THROW(assembled(wrist + "pose of tool\n")) << "it turns";
+}
+
 TEST(Assembly, RefusesAnOutputsComponentThatCannotMove) {
   std::string text = kFourBar;
   text.erase(text.find("t : joint t2"));
