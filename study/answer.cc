@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "corank/core/box.h"
 #include "corank/core/check.h"
@@ -66,7 +67,7 @@ class Searches {
       boxes_ = std::min((options.boxes_of_first_turns + number - 1) / number, kMostOfFirstTurn);
   }
 
-  std::vector<result::Result> run(const std::vector<Question>& questions, const std::vector<System>& systems) {
+  std::vector<result::Result> run(std::span<const Question> questions, std::span<const System> systems) {
     for (bool all = false; !all; boxes_ *= kGrowth) {
       all = true;
       for (std::size_t i = 0; i < searches_.size(); ++i)
@@ -198,7 +199,7 @@ result::Result answer(const Question& question, const System& system, const Opti
                       RunJournal* journal) {
   RunJournal none({}, {});
   result::Result result =
-      std::move(Searches(options, control, journal ? *journal : none, 1).run({question}, {system}).front());
+      std::move(Searches(options, control, journal ? *journal : none, 1).run({&question, 1}, {&system, 1}).front());
   search_assembly(question, control, result);
   return result;
 }

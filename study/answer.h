@@ -13,8 +13,8 @@ class RunJournal;
 struct Options {
   solve::Options search;  ///< σ, limits, threads, progress
   int digits = 0;         ///< proven digits of isolated points after the decimal point; 0: none
-  /// Of a set in parts all are searched in turns, so that one without an end leaves time to the others. So many boxes the
-  /// first turns have together; each round has four times as many. 0: one part after the other.
+  /// The parts of a set are searched in turns, so that one without an end leaves time to the others. In the first round all
+  /// parts together process this many boxes, in each next round four times as many. 0: one part after the other.
   std::uint64_t boxes_of_first_turns = 1'000'000;
 };
 

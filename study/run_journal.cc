@@ -83,7 +83,9 @@ void RunJournal::keep(const solve::SearchView& state, solve::Moment moment) {
   left_out_ = plan_.keep_end && ended_ && bytes >= plan_.most_in_result ? bytes : 0;
   if (plan_.keep_end && ended_ && left_out_ == 0)
     search_ = result::checkpoint_bytes(solve::engine_version(), known_, state_writer, bytes);
-  if (is_over && known_.states.size() > 1) known_.states[known_.under_way] = solve::to_bytes(state);
+  const bool is_kept = plan_.keep_end || !plan_.path.empty();  // a finished search's, beside those that go on
+  if (known_.states.size() > 1 && (moment == Moment::turn_over || (moment == Moment::cut && is_kept)))
+    known_.states[known_.under_way] = solve::to_bytes(state);
 }
 
 }  // namespace corank::study

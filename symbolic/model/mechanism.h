@@ -58,7 +58,7 @@ struct Coordinate {
 
 /// A coordinate with a range of one value.
 bool is_fixed(const Coordinate& coordinate);
-/// Gives the coordinate of that name one value. False where there is none.
+/// Holds the coordinate of that name at one value. Returns false if no coordinate has the name.
 bool hold(std::vector<Coordinate>& coordinates, const std::string& name, const Expression& value);
 
 /// Coordinates declared together, with the equations that tie them:

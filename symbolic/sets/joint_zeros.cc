@@ -129,7 +129,7 @@ bool JointZeros::have_no_common_zero(const std::vector<RationalPolynomial>& poly
     };
     if (std::ranges::any_of(all, is_not_zero)) continue;
     const auto widest = std::ranges::max_element(box, {}, [](const Interval& x) { return x.width(); });
-    if (widest == box.end() || widest->width() < kSmallest || boxes > kMostBoxes) return false;
+    if (widest == box.end() || widest->width() < kSmallest || boxes > kMostBoxes || is_over(ended_)) return false;
     const auto side = static_cast<std::size_t>(widest - box.begin());
     for (const Interval& half : {Interval(widest->lo(), widest->mid()), Interval(widest->mid(), widest->hi())}) {
       open.push_back(box);
@@ -284,7 +284,6 @@ std::optional<JointZeros::Zeros> JointZeros::found(const RationalPolynomial& f) 
     if (g.is_number()) continue;
     if (const std::optional<Zeros> own = by_factors(g)) {
       zeros.add(*own);
-
     } else {
       zeros.factors.push_back(g);
     }

@@ -141,6 +141,7 @@ class RankLoss {
     });
   }
   std::optional<Component> component_of(const Loss& loss) const;
+
   const Mechanism& mechanism_;
   const FreeCoordinates& free_;
   const JointValues& held_;
@@ -166,15 +167,14 @@ bool RankLoss::split(std::vector<RationalPolynomial> all, const Held& held) {
   Loss loss{held, {}};
   const auto add_condition = [&](const RationalPolynomial& factor) {
     if (std::ranges::find(loss.conditions, factor) == loss.conditions.end()) loss.conditions.push_back(factor);
-    std::erase_if(lists, [&](const Zeros& z) { return std::ranges::find(z.factors, factor) != z.factors.end(); });
+    std::erase_if(lists, [&](const Zeros& z) { return z.has(factor); });
   };
   const auto only_has = [](const Zeros& z) { return z.values.empty() && z.factors.size() == 1; };
   for (auto one = lists.begin(); (one = std::ranges::find_if(lists, only_has)) != lists.end();)
     add_condition(RationalPolynomial(one->factors.front()));
   if (!lists.empty())  // factors of all
     for (const RationalPolynomial& factor : std::vector(lists.front().factors)) {
-      const auto has = [&](const Zeros& z) { return std::ranges::find(z.factors, factor) != z.factors.end(); };
-      if (!std::ranges::all_of(lists, has)) continue;
+      if (!std::ranges::all_of(lists, [&](const Zeros& z) { return z.has(factor); })) continue;
       losses_.push_back(loss);
       losses_.back().conditions.push_back(factor);
       for (Zeros& z : lists) std::erase(z.factors, factor);
@@ -218,7 +218,11 @@ std::optional<Component> RankLoss::component_of(const Loss& loss) const {
   for (const Expression& condition : part.conditions) {
     const std::string name = name_of_condition(mechanism_, condition);
     const auto known = std::ranges::find(names, name, &std::pair<std::string, int>::first);
-    known == names.end() ? void(names.emplace_back(name, 1)) : void(++known->second);
+    if (known == names.end()) {
+      names.emplace_back(name, 1);
+    } else {
+      ++known->second;
+    }
   }
   for (const auto& [name, number] : names)
     part.name += (part.name.empty() ? "" : ", ") +
@@ -251,10 +255,11 @@ std::vector<Component> losses_of(const Mechanism& mechanism, const ExpressionMat
   std::vector<Component> parts;
   bool all = true;
   const auto add = [&](const ExpressionMatrix& m, const JointValues& values) {
+    const bool may_have_full_rank = m.columns.size() >= m.rows.size();
     std::vector<Component> own;
-    if (m.columns.size() >= m.rows.size()) own = losses_of(mechanism, m, free, values, ended, depth + 1);
+    if (may_have_full_rank) own = losses_of(mechanism, m, free, values, ended, depth + 1);
     if (own.empty()) {
-      auto part = m.columns.size() >= m.rows.size() ? with_kernel_vector(m, values, free) : part_at(free, values);
+      auto part = may_have_full_rank ? with_kernel_vector(m, values, free) : part_at(free, values);
       if (part) own.push_back(std::move(*part));
       all = all && part;
     }

@@ -140,7 +140,7 @@ struct Part {
     for (Eigen::Index i = 0; i < q.size(); ++i) names[fmt::format("q{}", i + 1)] = q[i];
     return names;
   }
-  /// Of the matrix; 0 where there is none.
+  /// The smallest singular value of the matrix; 0 if the part has no matrix.
   double smallest_value(const VectorXd& q) const {
     if (!block) return 0;
     const auto names = names_at(q);
